@@ -88,6 +88,14 @@ constexpr auto cross(const Vec<3, A>& a, const Vec<3, B>& b) {
   return Vec<3, T>{{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
 }
 
+/// The tensor a (x) b: element [i][j] is a_i b_j.
+template <int N, class A, class B>
+constexpr auto outer(const Vec<N, A>& a, const Vec<N, B>& b) {
+  Vec<N, Vec<N, decltype(a[0] * b[0])>> t;
+  for (int k = 0; k < N; ++k) t[k] = a[k] * b;
+  return t;
+}
+
 /// Square, cube and whole powers, so that equations read as they are printed.
 template <class T>
 constexpr T sq(const T& a) {

@@ -1,0 +1,146 @@
+#include "undine/engine/neighbours.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "undine/search/cell_grid.hpp"
+
+namespace undine {
+namespace {
+
+using field::x_list;
+
+/// Targets handled by one task; small enough to balance splashes, large enough to cost nothing.
+constexpr std::size_t targets_per_task = 512;
+
+/// Fills a list by asking `find(target, found)` for each of n targets; indices are shifted by `offset` to store indices.
+template <class Find>
+void fill_list(NeighbourList& list, std::size_t n, std::size_t offset, Find&& find) {
+  const std::size_t tasks = (n + targets_per_task - 1) / targets_per_task;
+  std::vector<std::vector<std::uint32_t>> parts(tasks);
+  list.starts.assign(n + 1, 0);
+#pragma omp parallel
+  {
+    std::vector<std::uint32_t> found;
+#pragma omp for schedule(dynamic, 1)
+    for (std::size_t task = 0; task < tasks; ++task) {
+      for (std::size_t t = task * targets_per_task; t < std::min(n, (task + 1) * targets_per_task); ++t) {
+        find(t, found);
+        list.starts[t + 1] = found.size();
+        for (const std::uint32_t j : found) parts[task].push_back(j + static_cast<std::uint32_t>(offset));
+      }
+    }
+  }
+  std::partial_sum(list.starts.begin(), list.starts.end(), list.starts.begin());
+  list.indices.resize(list.starts[n]);
+#pragma omp parallel for schedule(static)
+  for (std::size_t task = 0; task < tasks; ++task)
+    std::copy(parts[task].begin(), parts[task].end(), list.indices.begin() + list.starts[task * targets_per_task]);
+}
+
+}  // namespace
+
+template <int N>
+Neighbours<N>::Neighbours(const Domain<N>& domain, Options options) : domain_(domain), options_(std::move(options)) {
+  for (auto& search : searches_) search = make_search<N>(options_.search);
+}
+
+template <int N>
+void Neighbours<N>::sort_by_space(Store<N>& store) {
+  for (const Group group : all_groups) {
+    const IndexRange r = store.range(group);
+    // By id first: the counting sort keeps that order inside each cell.
+    std::vector<std::uint32_t> by_id(r.size());
+    std::iota(by_id.begin(), by_id.end(), 0U);
+    const auto ids = store.ids().subspan(r.begin, r.size());
+    std::sort(by_id.begin(), by_id.end(), [&](auto a, auto b) { return ids[a] < ids[b]; });
+    std::vector<Vec<N>> x(r.size());
+    const auto all_x = store.template get<field::x>();
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = all_x[r.begin + by_id[k]];
+
+    CellGrid<N> grid;
+    grid.build(x, list_radius_, domain_);
+    std::vector<std::uint32_t> order(r.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = by_id[grid.order()[k]];
+    store.permute(group, order);
+  }
+}
+
+template <int N>
+void Neighbours<N>::build(Store<N>& store, double support) {
+  support_ = support;
+  list_radius_ = support * (1 + options_.skin);
+  for (auto& x : store.template get<field::x>()) x = domain_.wrapped(x);
+  sort_by_space(store);
+  std::ranges::copy(store.template get<field::x>(), store.template get<x_list>().begin());
+  build_lists(store);
+}
+
+template <int N>
+void Neighbours<N>::rebuild_from_list_positions(Store<N>& store, double support) {
+  support_ = support;
+  list_radius_ = support * (1 + options_.skin);
+  build_lists(store);
+}
+
+template <int N>
+void Neighbours<N>::build_lists(Store<N>& store) {
+  const auto x = store.template get<x_list>();
+  for (const Group group : all_groups) {
+    const IndexRange r = store.range(group);
+    searches_[static_cast<int>(group)]->build(x.subspan(r.begin, r.size()), list_radius_, domain_);
+  }
+  if (!options_.store_lists) return;
+  for (const Group target : all_groups)
+    for (const Group source : all_groups) {
+      const IndexRange targets = store.range(target), sources = store.range(source);
+      if (target == Group::wall && source == Group::wall) continue;  // walls do not act on walls
+      fill_list(lists_[static_cast<int>(target)][static_cast<int>(source)], targets.size(), sources.begin,
+                [&](std::size_t t, auto& found) {
+                  searches_[static_cast<int>(source)]->find(x[targets.begin + t], list_radius_, found);
+                });
+    }
+}
+
+template <int N>
+bool Neighbours<N>::stale(const Store<N>& store, double support) const {
+  const auto x = store.template get<field::x>();
+  const auto x_old = store.template get<x_list>();
+  double moved_sq = 0;
+#pragma omp parallel for reduction(max : moved_sq) schedule(static)
+  for (std::size_t i = 0; i < x.size(); ++i) moved_sq = std::max(moved_sq, norm_sq(domain_.nearest_image(x[i] - x_old[i])));
+  return list_radius_ <= 0 || support + 2 * std::sqrt(moved_sq) > list_radius_;
+}
+
+template <int N>
+std::span<const std::uint32_t> Neighbours<N>::of(Group target_group, std::size_t target, Group source_group,
+                                                 const Store<N>& store, std::vector<std::uint32_t>& scratch) const {
+  if (options_.store_lists) return list(target_group, source_group).of(target);
+  const auto x = store.template get<x_list>();
+  searches_[static_cast<int>(source_group)]->find(x[store.range(target_group).begin + target], list_radius_, scratch);
+  for (auto& j : scratch) j += static_cast<std::uint32_t>(store.range(source_group).begin);
+  return scratch;
+}
+
+template <int N>
+void Neighbours<N>::near_point(const Vec<N>& x, Group group, const Store<N>& store, std::vector<std::uint32_t>& found) const {
+  // A particle within the support now was within support + skin/2 when the lists were built.
+  searches_[static_cast<int>(group)]->find(x, list_radius_, found);
+  for (auto& j : found) j += static_cast<std::uint32_t>(store.range(group).begin);
+}
+
+template <int N>
+std::size_t Neighbours<N>::bytes() const {
+  std::size_t total = 0;
+  for (const auto& search : searches_) total += search ? search->bytes() : 0;
+  for (const auto& row : lists_)
+    for (const auto& list : row)
+      total += list.starts.capacity() * sizeof(std::size_t) + list.indices.capacity() * sizeof(std::uint32_t);
+  return total;
+}
+
+template class Neighbours<1>;
+template class Neighbours<2>;
+template class Neighbours<3>;
+
+}  // namespace undine

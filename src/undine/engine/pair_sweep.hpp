@@ -1,0 +1,102 @@
+#pragma once
+#include <omp.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+
+#include "undine/backend/backend.hpp"
+#include "undine/core/error.hpp"
+#include "undine/engine/sweep.hpp"
+
+namespace undine {
+
+/// A named sweep over pairs: its terms, the group it is for, and the backends it can run on.
+template <int N, class... Uses>
+class PairSweep {
+ public:
+  PairSweep(std::string name, Group target, Booking booking = Booking::off)
+      : name_(std::move(name)), target_(target), booking_(booking) {}
+
+  template <std::size_t k>
+  auto& use() {
+    return std::get<k>(uses_);
+  }
+
+  std::tuple<Uses...>& uses() { return uses_; }
+  const std::tuple<Uses...>& uses() const { return uses_; }
+
+  const std::string& name() const { return name_; }
+  Group target() const { return target_; }
+  static FieldSet reads() { return Union<typename Uses::Term::reads...>::set(); }
+  static FieldSet adds() { return Union<typename Uses::Term::adds...>::set(); }
+
+  void run(const SweepContext<N>& context, const Backend& backend) {
+    switch (backend.kind) {
+      case BackendKind::serial: run_serial(context); break;
+      case BackendKind::checked: run_checked(context); break;
+      case BackendKind::threads:
+        if (backend.precision == PairPrecision::mixed) {
+          SweepLoop<N, Pack<float>, Uses...>(context, uses_, records_float_).run(target_, booking_);
+        } else {
+          SweepLoop<N, Pack<double>, Uses...>(context, uses_, records_double_).run(target_, booking_);
+        }
+        break;
+    }
+  }
+
+ private:
+  void run_serial(const SweepContext<N>& context) {
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    SweepLoop<N, double, Uses...>(context, uses_, records_double_).run(target_, booking_);
+    omp_set_num_threads(threads);
+  }
+
+  /// Serial, with every output poisoned beforehand, inputs that nothing wrote found by their poison, and results checked.
+  void run_checked(const SweepContext<N>& context) {
+    const IndexRange targets = context.store.range(target_);
+    for_each_in(adds(), [&](int f) {
+      const int n = all_fields[f].components(N);
+      auto data = context.store.raw(f).subspan(targets.begin * n, targets.size() * n);
+      std::fill(data.begin(), data.end(), std::numeric_limits<double>::quiet_NaN());
+    });
+    for (const Group group : all_groups)
+      if (group == target_ || takes_from(group))
+        check_finite(context, reads(), context.store.range(group), "reads a value that nothing wrote");
+    run_serial(context);
+    check_finite(context, adds(), targets, "gave a value that is not finite");
+  }
+
+  void check_finite(const SweepContext<N>& context, const FieldSet& fields, IndexRange range, const char* complaint) const {
+    for_each_in(fields, [&](int f) {
+      const int n = all_fields[f].components(N);
+      const auto data = context.store.raw(f);
+      for (std::size_t i = range.begin; i < range.end; ++i)
+        for (int k = 0; k < n; ++k)
+          if (!std::isfinite(data[i * n + k]))
+            throw RunError({.what = "sweep '" + name_ + "' " + complaint + ": field '" + std::string(all_fields[f].name) +
+                                    "' of particle " + std::to_string(context.store.ids()[i])});
+    });
+  }
+
+  bool takes_from(Group group) const {
+    return std::apply([&](const auto&... use) { return (use.acts_on(group) || ...); }, uses_);
+  }
+
+  template <class F>
+  static void for_each_in(const FieldSet& fields, F&& f) {
+    for (int k = 0; k < FieldId::count; ++k)
+      if (fields[k]) f(k);
+  }
+
+  std::string name_;
+  Group target_;
+  Booking booking_;
+  std::tuple<Uses...> uses_;
+  std::vector<float> records_float_;
+  std::vector<double> records_double_;
+};
+
+}  // namespace undine

@@ -1,0 +1,384 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "undine/core/pack.hpp"
+#include "undine/engine/neighbours.hpp"
+#include "undine/engine/pair.hpp"
+#include "undine/engine/smoothing.hpp"
+
+namespace undine {
+
+/// Power of a rate, per source group: what a term does to the energy of the targets, in W.
+using Power = std::array<double, group_count>;
+
+/// A term at its place in a sweep: which kernel it takes, and from which groups it sums.
+template <class TermType, KernelRole kernel_role = KernelRole::density>
+struct Use {
+  using Term = TermType;
+  static constexpr KernelRole role = kernel_role;
+
+  TermType term{};
+  bool active = true;
+  std::array<bool, group_count> sources{true, true};
+  Power power{};  ///< filled by a booked sweep
+
+  bool acts_on(Group source) const { return active && sources[static_cast<int>(source)]; }
+};
+
+/// Everything a sweep needs to know of the run.
+template <int N>
+struct SweepContext {
+  Store<N>& store;
+  const Neighbours<N>& neighbours;
+  const Domain<N>& domain;
+  Support support;
+  std::array<KernelChoice, kernel_roles> kernels;
+};
+
+/// Whether a sweep books the power of its terms (needs v, m, p, rho of the targets).
+enum class Booking { off, on };
+
+namespace detail {
+
+/// Positions as the pair loop sees them. `double`: as they are. `float`: 32-bit fixed point, so that differences of near
+/// particles are exact to 2^-24 of the list radius however far from the origin they are; along a periodic axis the period is 2^32
+/// units, so that the difference of two positions wraps to the nearest image by itself.
+template <int N, class Real>
+class PositionCode;
+
+template <int N>
+class PositionCode<N, double> {
+ public:
+  PositionCode(const Domain<N>& domain, double) : domain_(domain) {}
+  Vec<N, double> encode(const Vec<N>& x) const { return x; }
+
+  template <class V>
+  Vec<N, V> difference(const Vec<N, double>& a, const Vec<N, V>& b) const {
+    Vec<N, V> d = a - b;
+    for (int k = 0; k < N; ++k)
+      if (domain_.periodic[k]) d[k] = wrap(d[k], domain_.length(k));
+    return d;
+  }
+
+ private:
+  /// Both particles lie within one period, give or take a step: one shift suffices.
+  template <class V>
+  static V wrap(const V& d, double period) {
+    const V shifted = select(d > V(0.5 * period), d - V(period), d);
+    return select(shifted < V(-0.5 * period), shifted + V(period), shifted);
+  }
+  const Domain<N>& domain_;
+};
+
+template <int N>
+class PositionCode<N, float> {
+ public:
+  PositionCode(const Domain<N>& domain, double list_radius) {
+    for (int k = 0; k < N; ++k) {
+      unit_[k] = domain.periodic[k] ? domain.length(k) * 0x1p-32 : list_radius * 0x1p-24;
+      origin_[k] = domain.periodic[k] ? domain.low[k] : 0.0;
+      width_[k] = static_cast<float>(unit_[k]);
+    }
+  }
+  Vec<N, float> encode(const Vec<N>& x) const {
+    Vec<N, float> code;
+    for (int k = 0; k < N; ++k) {
+      const double units = std::nearbyint((x[k] - origin_[k]) / unit_[k]);
+      // Beyond 2^63 units nothing is near anything; keep the conversion defined.
+      const double safe = units > -0x1p62 && units < 0x1p62 ? units : 0.0;
+      code[k] = std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<std::int64_t>(safe)));
+    }
+    return code;
+  }
+
+  template <class V>
+  Vec<N, V> difference(const Vec<N, float>& a, const Vec<N, V>& b) const {
+    Vec<N, V> d;
+    for (int k = 0; k < N; ++k) d[k] = fixed_difference(a[k], b[k]) * V(width_[k]);
+    return d;
+  }
+
+ private:
+  static float fixed_difference(float a, float b) {
+    return static_cast<float>(static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(a) - std::bit_cast<std::uint32_t>(b)));
+  }
+  static Pack<float> fixed_difference(float a, const Pack<float>& b) {
+    namespace stdx = std::experimental;
+    using Unsigned = stdx::rebind_simd_t<std::uint32_t, Pack<float>::Native>;
+    using Signed = stdx::rebind_simd_t<std::int32_t, Pack<float>::Native>;
+    const auto difference = Unsigned(std::bit_cast<std::uint32_t>(a)) - std::bit_cast<Unsigned>(b.native());
+    return Pack<float>(stdx::static_simd_cast<Pack<float>::Native>(std::bit_cast<Signed>(difference)));
+  }
+
+  Vec<N> unit_, origin_;
+  Vec<N, float> width_;
+};
+
+/// Calls f(number) for each number of a scalar, vector or tensor value.
+template <class T, class F>
+void for_each_number(T& value, F&& f) {
+  if constexpr (is_vec<std::remove_const_t<T>>) {
+    for (auto& part : value.c) for_each_number(part, f);
+  } else {
+    f(value);
+  }
+}
+
+/// Power of a contribution to a rate: force times velocity for `acc`, m p / rho^2 times the rate for a density rate (the work
+/// that compression stores), nothing for any other field.
+template <class Tag, class Target, class Value>
+double power_of(const Target& a, const Value& rate) {
+  if constexpr (std::is_same_v<Tag, field::acc>) {
+    return a.m * dot(a.v, rate);
+  } else if constexpr (std::is_same_v<Tag, field::drho> || std::is_same_v<Tag, field::drho_diff>) {
+    return a.m * a.p / sq(a.rho) * rate;
+  } else {
+    return 0.0;
+  }
+}
+
+}  // namespace detail
+
+/// The pair loop: sums (or maxima) of all uses over the neighbours of each target of one group, written to the store. `V` is the
+/// value type of the pair arithmetic: double (plain), or a pack. Targets are independent and each sums in the order of its
+/// list, so the result does not depend on the number of threads.
+template <int N, class V, class... Uses>
+class SweepLoop {
+ public:
+  using Reads = Union<typename Uses::Term::reads...>;
+  using Adds = Union<typename Uses::Term::adds...>;
+  using Records = std::vector<scalar_of<V>>;
+
+  SweepLoop(const SweepContext<N>& context, std::tuple<Uses...>& uses, Records& records)
+      : context_(context), uses_(uses), records_(records), code_(context.domain, context.neighbours.list_radius()) {}
+
+  void run(Group target, Booking booking) {
+    fill_records();
+    const IndexRange targets = context_.store.range(target);
+    const std::size_t blocks = (targets.size() + targets_per_block - 1) / targets_per_block;
+    std::vector<std::array<Power, sizeof...(Uses)>> powers(booking == Booking::on ? blocks : 0);
+#pragma omp parallel
+    {
+      std::vector<std::uint32_t> scratch;
+#pragma omp for schedule(dynamic, 1)
+      for (std::size_t block = 0; block < blocks; ++block) {
+        std::array<Power, sizeof...(Uses)> power{};
+        const std::size_t last = std::min(targets.size(), (block + 1) * targets_per_block);
+        for (std::size_t t = block * targets_per_block; t < last; ++t) one_target(target, t, booking, scratch, power);
+        if (booking == Booking::on) powers[block] = power;
+      }
+    }
+    if (booking == Booking::on) add_up(powers, std::index_sequence_for<Uses...>{});
+  }
+
+ private:
+  using Real = scalar_of<V>;
+  using Mask = decltype(V() < V());
+  static constexpr int lanes = lanes_of<V>;
+  static constexpr std::size_t targets_per_block = 128;
+  static constexpr std::size_t use_count = sizeof...(Uses);
+  using RowOfReads = typename Reads::template Row<N, V>;
+  using TargetRow = typename Reads::template Row<N, Real>;
+  template <class U, class T>
+  using Sums = typename U::Term::adds::template Row<N, T>;
+  using AllSums = std::tuple<Sums<Uses, V>...>;
+  using BookRow = Fields<field::m, field::v, field::p, field::rho>::Row<N, double>;
+
+  static constexpr int components() {
+    int n = N + 1;  // position and support radius
+    Reads::for_each([&]<class F>(F) { n += F::info.components(N); });
+    return n;
+  }
+  static constexpr int width = components();
+  /// Records start on vector boundaries as far as that costs little.
+  static constexpr int stride = (width + 3) / 4 * 4;
+
+  /// One compact record per particle: position code, support radius, then the fields that the terms read.
+  void fill_records() {
+    const auto& store = context_.store;
+    records_.resize(store.size() * stride);
+    const auto x = store.template get<field::x>();
+    const auto h = store.template get<field::h>();
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < store.size(); ++i) {
+      Real* record = records_.data() + i * stride;
+      for (const Real part : code_.encode(x[i]).c) *record++ = part;
+      *record++ = static_cast<Real>(context_.support.per_particle ? h[i] : context_.support.uniform);
+      Reads::for_each([&]<class F>(F) {
+        constexpr int n = F::info.components(N);
+        const double* from = store.raw(F::id).data() + i * n;
+        for (int k = 0; k < n; ++k) *record++ = static_cast<Real>(from[k]);
+      });
+    }
+  }
+
+  template <class T, class Load>
+  static void load_row(T& row, Load&& load) {
+    int at = N + 1;
+    Reads::for_each([&]<class F>(F) { detail::for_each_number(F::of(row), [&](auto& number) { number = load(at++); }); });
+  }
+
+  void one_target(Group group, std::size_t target, Booking booking, std::vector<std::uint32_t>& scratch,
+                  std::array<Power, use_count>& power) {
+    auto& store = context_.store;
+    const std::size_t a = store.range(group).begin + target;
+    const Real* record = records_.data() + a * stride;
+    Vec<N, Real> x_a;
+    for (int k = 0; k < N; ++k) x_a[k] = record[k];
+    TargetRow row_a;
+    load_row(row_a, [&](int k) { return record[k]; });
+    BookRow book{};
+    if (booking == Booking::on) {
+      book.m = store.template get<field::m>()[a];
+      book.v = store.template get<field::v>()[a];
+      book.p = store.template get<field::p>()[a];
+      book.rho = store.template get<field::rho>()[a];
+    }
+
+    typename Adds::template Row<N, double> total{};
+    for (const Group source : all_groups) {
+      if (!any_acts_on(source)) continue;
+      const auto list = context_.neighbours.of(group, target, source, store, scratch);
+      if (list.empty()) continue;
+      AllSums sums{};
+      for (std::size_t at = 0; at < list.size(); at += lanes) one_block(source, x_a, record[N], row_a, list, at, sums);
+      collect(source, sums, total, booking, book, power, std::index_sequence_for<Uses...>{});
+    }
+    Adds::for_each([&]<class F>(F) { store.template get<F>()[a] = F::of(total); });
+  }
+
+  bool any_acts_on(Group source) const {
+    return std::apply([&](const auto&... use) { return (use.acts_on(source) || ...); }, uses_);
+  }
+
+  /// `lanes` neighbours at once. Lanes past the end of the list repeat its last entry at distance 2 H, where every kernel is zero.
+  [[gnu::flatten]] void one_block(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a, std::span<const std::uint32_t> list,
+                 std::size_t at, AllSums& sums) {
+    const Real* from[lanes];
+    const int valid = static_cast<int>(std::min<std::size_t>(lanes, list.size() - at));
+    for (int k = 0; k < lanes; ++k) from[k] = records_.data() + std::size_t{list[at + std::min(k, valid - 1)]} * stride;
+
+    Vec<N, V> x_b;
+    for (int k = 0; k < N; ++k) x_b[k] = lane_load(from, k);
+    RowOfReads row_b;
+    load_row(row_b, [&](int k) { return lane_load(from, k); });
+
+    Pair<N, V, Mask> ab;
+    ab.dx = code_.template difference<V>(x_a, x_b);
+    const auto& support = context_.support;
+    ab.support = support.per_particle ? pair_support<V>(support.mean, h_a, lane_load(from, N)) : V(static_cast<Real>(support.uniform));
+    ab.r_sq = norm_sq(ab.dx);
+    ab.h = ab.support * V(static_cast<Real>(1.0 / support.kappa));
+    if (valid < lanes) ab.r_sq = pad(ab.r_sq, valid, ab.support);
+    ab.r = sqrt(ab.r_sq);
+    ab.inside = ab.r_sq < ab.support * ab.support;
+
+    const V inv_h = support.per_particle ? V(1) / ab.support : V(static_cast<Real>(1.0 / support.uniform));
+    evaluate(source, row_a, row_b, ab, inv_h, sums, std::index_sequence_for<Uses...>{});
+  }
+
+  static V lane_load(const Real* const* from, int component) {
+    if constexpr (lanes == 1) {
+      return from[0][component];
+    } else {
+      return V::generate([&](int k) { return from[k][component]; });
+    }
+  }
+  static V pad(const V& r_sq, int valid, const V& h) {
+    if constexpr (lanes == 1) {
+      return r_sq;
+    } else {
+      return select(V::generate([](int k) { return static_cast<Real>(k); }) < V(valid), r_sq, V(4) * h * h);
+    }
+  }
+
+  template <std::size_t... I>
+  void evaluate(Group source, const TargetRow& a, const RowOfReads& b, Pair<N, V, Mask>& ab, const V& inv_h, AllSums& sums,
+                std::index_sequence<I...>) {
+    struct Values {
+      V w, grad;
+    };
+    const V R = ab.r * inv_h;
+    V inv_h_n = inv_h;
+    for (int k = 1; k < N; ++k) inv_h_n = inv_h_n * inv_h;
+    std::array<Values, kernel_roles> values;
+    const auto& kernels = context_.kernels;
+    for (int role = 0; role < kernel_roles; ++role) {
+      if (role > 0 && kernels[role].index() == kernels[0].index()) {
+        values[role] = values[0];
+      } else {
+        values[role] = {kernels[role].template w<N>(R) * inv_h_n,
+                        kernels[role].template slope_over_R<N>(R) * (inv_h_n * inv_h * inv_h)};
+      }
+    }
+    const auto one = [&]<class U>(U& use, Sums<U, V>& sum) {
+      if (!use.acts_on(source)) return;
+      constexpr int role = static_cast<int>(U::role);
+      ab.w = values[role].w;
+      ab.grad_w = ab.dx * values[role].grad;
+      ab.kernel = &kernels[role];
+      const auto row = use.term(a, b, ab);
+      U::Term::adds::for_each([&]<class F>(F) {
+        if constexpr (F::info.join == Join::max) {
+          F::of(sum) = max(F::of(sum), select(ab.inside, V(F::of(row)), V(0)));
+        } else {
+          F::of(sum) += F::of(row);
+        }
+      });
+    };
+    (one(std::get<I>(uses_), std::get<I>(sums)), ...);
+  }
+
+  /// Joins the lanes, adds to the totals, and books.
+  template <std::size_t... I>
+  void collect(Group source, const AllSums& sums, typename Adds::template Row<N, double>& total, Booking booking,
+               const BookRow& book, std::array<Power, use_count>& power, std::index_sequence<I...>) {
+    const auto one = [&]<class U>(const U& use, const Sums<U, V>& sum, Power& booked) {
+      if (!use.acts_on(source)) return;
+      U::Term::adds::for_each([&]<class F>(F) {
+        typename F::template value<N, double> joined{};
+        join_lanes<F::info.join>(joined, F::of(sum));
+        if constexpr (F::info.join == Join::max) {
+          F::of(total) = std::max(F::of(total), joined);
+        } else {
+          F::of(total) += joined;
+          if (booking == Booking::on) booked[static_cast<int>(source)] += detail::power_of<F>(book, joined);
+        }
+      });
+    };
+    (one(std::get<I>(uses_), std::get<I>(sums), power[I]), ...);
+  }
+
+  template <Join join, class To, class From>
+  static void join_lanes(To& to, const From& from) {
+    if constexpr (is_vec<From>) {
+      for (int k = 0; k < N; ++k) join_lanes<join>(to[k], from[k]);
+    } else if constexpr (join == Join::max) {
+      to = lane_max(from);
+    } else {
+      to = lane_sum(from);
+    }
+  }
+
+  template <std::size_t... I>
+  void add_up(const std::vector<std::array<Power, use_count>>& powers, std::index_sequence<I...>) {
+    const auto one = [&](Power& total, std::size_t k) {
+      total = {};
+      for (const auto& block : powers)
+        for (int g = 0; g < group_count; ++g) total[g] += block[k][g];
+    };
+    (one(std::get<I>(uses_).power, I), ...);
+  }
+
+  const SweepContext<N>& context_;
+  std::tuple<Uses...>& uses_;
+  Records& records_;
+  detail::PositionCode<N, Real> code_;
+};
+
+}  // namespace undine

@@ -1,0 +1,131 @@
+// Union, intersection and difference: distances by minimum and maximum, crossings by interval arithmetic.
+#include <algorithm>
+#include <utility>
+
+#include "undine/core/error.hpp"
+#include "undine/geometry/shape.hpp"
+
+namespace undine {
+namespace {
+
+/// The fraction of the segment below which a stretch is a rounding error: 1e-14 of the coordinates' size.
+double thin_fraction(const Vec3& from, const Vec3& to) {
+  double size = 0;
+  for (int k = 0; k < 3; ++k) size = std::max({size, std::abs(from[k]), std::abs(to[k])});
+  const double length = norm(to - from);
+  return length > 0 ? std::min(1.0, 1e-14 * size / length) : 0.0;
+}
+
+/// Every point that is not in the shape.
+class Complement final : public Shape {
+ public:
+  explicit Complement(ShapePtr shape) : shape_(std::move(shape)) {}
+
+  double signed_distance(const Vec3& p) const override { return -shape_->signed_distance(p); }
+  Vec3 normal(const Vec3& p) const override { return -shape_->normal(p); }
+  Bounds bounds() const override { return Bounds::everything(); }
+  bool inside(const Vec3& p) const override { return !shape_->inside(p); }
+  Spans spans(const Vec3& from, const Vec3& to) const override {
+    return other_spans(shape_->spans(from, to), thin_fraction(from, to));
+  }
+
+ private:
+  ShapePtr shape_;
+};
+
+class Intersection final : public Shape {
+ public:
+  explicit Intersection(std::vector<ShapePtr> parts) : parts_(std::move(parts)) {
+    bounds_ = Bounds::everything();
+    for (const auto& part : parts_) bounds_ = overlap(bounds_, part->bounds());
+  }
+
+  double signed_distance(const Vec3& p) const override { return farthest(p).second; }
+  Vec3 normal(const Vec3& p) const override { return farthest(p).first->normal(p); }
+  Bounds bounds() const override { return bounds_; }
+  bool inside(const Vec3& p) const override {
+    return std::all_of(parts_.begin(), parts_.end(), [&](const auto& part) { return part->inside(p); });
+  }
+  Spans spans(const Vec3& from, const Vec3& to) const override {
+    Spans all = parts_.front()->spans(from, to);
+    const double thin = thin_fraction(from, to);
+    for (std::size_t k = 1; k < parts_.size(); ++k) all = both_spans(all, parts_[k]->spans(from, to), thin);
+    return all;
+  }
+
+ private:
+  std::pair<const Shape*, double> farthest(const Vec3& p) const {
+    std::pair<const Shape*, double> best{nullptr, -unbounded};
+    for (const auto& part : parts_) {
+      const double d = part->signed_distance(p);
+      if (!best.first || d > best.second) best = {part.get(), d};
+    }
+    return best;
+  }
+
+  std::vector<ShapePtr> parts_;
+  Bounds bounds_;
+};
+
+class Union final : public Shape {
+ public:
+  explicit Union(std::vector<ShapePtr> parts) : parts_(std::move(parts)) {
+    for (const auto& part : parts_) bounds_.include(part->bounds());
+  }
+
+  double signed_distance(const Vec3& p) const override { return nearest(p).second; }
+  Vec3 normal(const Vec3& p) const override { return nearest(p).first->normal(p); }
+  Bounds bounds() const override { return bounds_; }
+  bool inside(const Vec3& p) const override {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const auto& part) { return part->inside(p); });
+  }
+  Spans spans(const Vec3& from, const Vec3& to) const override {
+    const double thin = thin_fraction(from, to);
+    Spans none = other_spans(parts_.front()->spans(from, to), thin);
+    for (std::size_t k = 1; k < parts_.size(); ++k) {
+      none = both_spans(none, other_spans(parts_[k]->spans(from, to), thin), thin);
+    }
+    return other_spans(none, 0);
+  }
+
+ private:
+  std::pair<const Shape*, double> nearest(const Vec3& p) const {
+    std::pair<const Shape*, double> best{nullptr, unbounded};
+    for (const auto& part : parts_) {
+      const double d = part->signed_distance(p);
+      if (!best.first || d < best.second) best = {part.get(), d};
+    }
+    return best;
+  }
+
+  std::vector<ShapePtr> parts_;
+  Bounds bounds_;
+};
+
+void require_parts(const std::vector<ShapePtr>& parts, const char* what) {
+  if (parts.empty()) throw InputError({.what = what, .why = "none was given", .fix = "name at least one shape"});
+  for (const auto& part : parts) {
+    if (!part) throw InputError({.what = what, .why = "one of them is missing"});
+  }
+}
+
+}  // namespace
+
+ShapePtr make_union(std::vector<ShapePtr> parts) {
+  require_parts(parts, "a union needs shapes");
+  if (parts.size() == 1) return parts.front();
+  return std::make_shared<Union>(std::move(parts));
+}
+
+ShapePtr make_intersection(std::vector<ShapePtr> parts) {
+  require_parts(parts, "an intersection needs shapes");
+  if (parts.size() == 1) return parts.front();
+  return std::make_shared<Intersection>(std::move(parts));
+}
+
+ShapePtr make_difference(ShapePtr whole, ShapePtr hole) {
+  require_parts({whole, hole}, "a difference needs two shapes");
+  return make_intersection({std::move(whole), std::make_shared<Complement>(std::move(hole))});
+}
+
+}  // namespace undine

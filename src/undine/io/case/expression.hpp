@@ -1,0 +1,58 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace undine {
+
+/// A formula of position x, y, z and time t (SI units), parsed once into a small stack program and then evaluated
+/// without allocation, from any number of threads.
+///
+/// Operators, weakest first: < <= > >= == != (giving 0 or 1; not chained), + -, * /, unary -, ^ (also **; right to
+/// left). Functions: sin cos tan asin acos atan atan2 sinh cosh tanh sqrt exp log (natural, also ln) log10 abs sign
+/// floor ceil pow mod min max clamp step if. sign(0) = 0; step(a) is 0 for a < 0, else 1; mod has the sign of its
+/// second argument; clamp(a, low, high); if(condition, a, b) is a where the condition is not 0; both sides are
+/// evaluated. min, max, clamp, step and if pass a NaN on. Constants: pi, e, and those given by name. Arithmetic is IEEE
+/// double: 1/0 is inf, and the caller checks the result.
+class Expression {
+ public:
+  using Constants = std::map<std::string, double, std::less<>>;
+
+  static constexpr std::size_t longest_source = 4096;  ///< characters
+  static constexpr int deepest = 64;                   ///< brackets within brackets, and values waiting on the stack
+  static constexpr std::size_t most_operations = 1000;
+
+  Expression() : Expression(0.0) {}
+  Expression(double constant);  // NOLINT(google-explicit-constructor): a plain number is an expression too
+
+  /// @throws InputError with the column within the expression; without a location.
+  static Expression parse(std::string_view source, const Constants& constants = {});
+
+  double operator()(double x, double y, double z, double t) const;
+
+  bool is_constant() const { return !uses_position_ && !uses_time_; }
+  bool uses_position() const { return uses_position_; }
+  bool uses_time() const { return uses_time_; }
+  /// As it was written.
+  const std::string& source() const { return source_; }
+  /// Steps of the compiled program; parts without variables are computed while parsing.
+  std::size_t operations() const { return program_.size(); }
+
+  enum class Code : std::uint8_t;
+  struct Step {
+    Code code;
+    double value;  ///< of a constant
+  };
+
+ private:
+  std::vector<Step> program_;
+  std::string source_;
+  bool uses_position_ = false;
+  bool uses_time_ = false;
+};
+
+}  // namespace undine

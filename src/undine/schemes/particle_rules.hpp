@@ -1,0 +1,80 @@
+#pragma once
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "undine/core/fields.hpp"
+#include "undine/materials/catalogue.hpp"
+
+namespace undine::rules {
+using namespace field;
+
+// Particle updates: what they read and write, and one pure function of a particle's row and its material.
+
+/// p = p(rho), c = c(rho) of the particle's material.
+struct ApplyEquationOfState {
+  using reads = Fields<rho>;
+  using writes = Fields<p, c>;
+  const std::vector<materials::Material>& materials;
+
+  auto operator()(const auto& a, int material) const {
+    const auto& substance = materials[material];
+    return writes::row(substance.pressure(a.rho), substance.sound_speed(a.rho));
+  }
+};
+
+/// rho = sum_b m_b W_ab.
+struct TakeSummedDensity {
+  using reads = Fields<rho_sum>;
+  using writes = Fields<rho>;
+  auto operator()(const auto& a, int) const { return writes::row(a.rho_sum); }
+};
+
+/// rho = sum_b m_b W_ab / sum_b (m_b/rho_b) W_ab. Niedoba (2012), eq. 2.58.
+struct TakeNormalisedDensity {
+  using reads = Fields<rho_sum, w_sum>;
+  using writes = Fields<rho>;
+  auto operator()(const auto& a, int) const { return writes::row(a.rho_sum / a.w_sum); }
+};
+
+/// rho_w = max(rho_0, rho_wref + sum over the fluid). Saalfeld (2012), eq. 70; the lower bound keeps a wall from pulling where its
+/// reference is below rho_0.
+struct AnswerModifiedDensity {
+  using reads = Fields<rho_sum, rho_0, rho_wall>;
+  using writes = Fields<rho>;
+  auto operator()(const auto& a, int) const { return writes::row(std::max(a.rho_0, a.rho_wall + a.rho_sum)); }
+};
+
+/// h = h_0 (rho_0/rho)^(1/N). Niedoba (2012), eq. 2.67.
+template <int N>
+struct FollowDensity {
+  using reads = Fields<rho, rho_0>;
+  using writes = Fields<h>;
+  double support_0;
+  auto operator()(const auto& a, int) const { return writes::row(support_0 * std::pow(a.rho_0 / a.rho, 1.0 / N)); }
+};
+
+/// G = M^-1 grad rho, exact for linear fields; where the neighbours do not span space (a lone or a flat neighbourhood), the plain
+/// gradient is kept. Antuono et al. (2010), eq. 11.
+template <int N>
+struct RenormaliseGradient {
+  using reads = Fields<grad_rho, moment>;
+  using writes = Fields<grad_rho_l>;
+  auto operator()(const auto& a, int) const {
+    Eigen::Matrix<double, N, N> matrix;
+    Eigen::Matrix<double, N, 1> gradient;
+    for (int i = 0; i < N; ++i) {
+      gradient(i) = a.grad_rho[i];
+      for (int j = 0; j < N; ++j) matrix(i, j) = a.moment[i][j];
+    }
+    Vec<N> result = a.grad_rho;
+    if (std::abs(matrix.determinant()) > 0.05) {
+      const Eigen::Matrix<double, N, 1> solved = matrix.inverse() * gradient;
+      for (int i = 0; i < N; ++i) result[i] = solved(i);
+    }
+    return writes::row(result);
+  }
+};
+
+}  // namespace undine::rules

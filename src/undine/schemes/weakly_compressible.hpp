@@ -1,0 +1,119 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "undine/engine/pair_sweep.hpp"
+#include "undine/engine/plan.hpp"
+#include "undine/engine/update.hpp"
+#include "undine/schemes/energies.hpp"
+#include "undine/schemes/weakly_compressible_options.hpp"
+
+namespace undine {
+
+/// A weakly compressible liquid with its walls: state, rates, and the moves that integrators are made of (integrators/euler.hpp lists
+/// them). Throws RunError when a value is no longer finite or a particle left the domain.
+template <int N>
+class WeaklyCompressible {
+ public:
+  using Options = WeaklyCompressibleOptions<N>;
+
+  /// Takes the particles as set up (x, v, rho, m, h, rho_0, mu of fluid and wall) and evaluates their rates. With the `memory` of
+  /// an earlier run it goes on with the same bits: the store must then be as it was, every field in its order.
+  WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options, const std::vector<double>& memory = {});
+  WeaklyCompressible(const WeaklyCompressible&) = delete;
+  WeaklyCompressible& operator=(const WeaklyCompressible&) = delete;
+
+  // Moves.
+  void drift(double dt);
+  void kick(double dt);
+  void compress(double dt);
+  void continuity();
+  void predict_kick(double dt);
+  void correct_kick(double dt);
+  void save();
+  void restore();
+  void evaluate();
+  void book(double dt);
+
+  /// The largest step that the limits allow for the rates at hand, and which limit it was.
+  Step stable_step(const StepLimits& limits) const;
+
+  Energies energies() const;
+  /// Force on the walls' particles from the fluid, field acc of the wall group (m/s^2, times m gives N). Changes no state.
+  void evaluate_wall_forces();
+
+  /// What a checkpoint must keep besides the store: time, ledger, powers, the support at the last list build.
+  std::vector<double> memory() const;
+
+  const Store<N>& store() const { return store_; }
+  Store<N>& store() { return store_; }
+  const Domain<N>& domain() const { return domain_; }
+  const Options& options() const { return options_; }
+  const Neighbours<N>& neighbours() const { return neighbours_; }
+  double support() const { return support_now_; }
+  double time() const { return time_; }
+  const Plan& plan() const { return plan_; }
+  long list_builds() const { return list_builds_; }
+  /// Seconds spent: neighbour lists, pair sweeps.
+  double seconds_lists() const { return seconds_lists_; }
+  double seconds_sweeps() const { return seconds_sweeps_; }
+  /// Lowest potential energy level: E_pot counts from here, m (along the direction against gravity).
+  void set_potential_origin(const Vec<N>& x) { potential_origin_ = x; }
+  const Vec<N>& potential_origin() const { return potential_origin_; }
+
+ private:
+  static constexpr auto d = KernelRole::density;
+  static constexpr auto pr = KernelRole::pressure;
+  static constexpr auto vi = KernelRole::viscosity;
+  using ContinuityUse = Use<OneOf<terms::ContinuityForms>, pr>;
+  using PressureUse = Use<OneOf<terms::PressureForms>, pr>;
+  using ViscosityUse = Use<OneOf<terms::ViscosityForms>, vi>;
+  using ArtificialUse = Use<terms::ViscosityMonaghan, vi>;
+  using XsphUse = Use<terms::Xsph, d>;
+  using DiffusionUse = Use<OneOf<terms::DiffusionForms>, d>;
+  using ApproachUse = Use<terms::ApproachSpeed, d>;
+
+  void configure();
+  void make_plan();
+  void add_density_stages();
+  void add_wall_stages();
+  template <class Sweep>
+  void add_sweep(Sweep& sweep, bool from_walls);
+  template <class Update>
+  void add_update(std::string name, Group group, const Update& rule);
+  template <class Sweep>
+  void run(Sweep& sweep);
+  SweepContext<N> context();
+  void refresh_lists();
+  void check_particles() const;
+  double largest_support() const;
+  void recall(const std::vector<double>& numbers);
+
+  Store<N> store_;
+  Domain<N> domain_;
+  Options options_;
+  Neighbours<N> neighbours_;
+  Plan plan_;
+  double support_now_ = 0;
+  double time_ = 0, time_start_ = 0;
+  Vec<N> potential_origin_{};
+  Energies::Ledger ledger_, ledger_start_;
+  long list_builds_ = 0;
+  double seconds_lists_ = 0, seconds_sweeps_ = 0;
+
+  PairSweep<N, PressureUse, ContinuityUse, ViscosityUse, ArtificialUse, DiffusionUse, XsphUse, ApproachUse> force_{
+      "force", Group::fluid, Booking::on};
+  PairSweep<N, ContinuityUse> continuity_{"continuity", Group::fluid};
+  PairSweep<N, ContinuityUse> wall_continuity_{"wall continuity", Group::wall};
+  PairSweep<N, Use<terms::Summation, d>> summation_{"summation", Group::fluid};
+  PairSweep<N, Use<terms::ShepardSum, d>> shepard_{"shepard sum", Group::fluid};
+  PairSweep<N, Use<terms::Summation, d>> wall_summation_{"wall summation", Group::wall};
+  PairSweep<N, Use<terms::DensityGradient, d>> gradient_{"density gradient", Group::fluid};
+  PairSweep<N, PressureUse, ViscosityUse, ArtificialUse> wall_force_{"wall force", Group::wall};
+};
+
+extern template class WeaklyCompressible<1>;
+extern template class WeaklyCompressible<2>;
+extern template class WeaklyCompressible<3>;
+
+}  // namespace undine

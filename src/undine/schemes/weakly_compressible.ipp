@@ -1,0 +1,407 @@
+#pragma once
+// The definitions of WeaklyCompressible<N>, compiled once for each N in weakly_compressible_Nd.cpp.
+#include "undine/schemes/weakly_compressible.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "undine/schemes/particle_rules.hpp"
+
+namespace undine {
+namespace {
+
+using namespace field;
+using walls::WallDensity;
+
+/// Adds the seconds it lives to a total.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total) {}
+  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+template <int N>
+WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options, const std::vector<double>& memory)
+    : store_(std::move(store)), domain_(domain), options_(std::move(options)), neighbours_(domain_, options_.neighbours) {
+  configure();
+  make_plan();
+  if (memory.empty()) {
+    evaluate();
+  } else {
+    recall(memory);
+  }
+}
+
+/// Tells each sweep which of its terms are in use, and between which groups.
+template <int N>
+void WeaklyCompressible<N>::configure() {
+  const bool walls = options_.wall_density != WallDensity::none;
+  const bool friction = walls && options_.wall_friction;
+
+  auto continuity = options_.continuity;
+  // A summed density changes as its derivative says, whichever continuity form the case names.
+  if (options_.density != DensityForm::evolved) continuity.choose(terms::ContinuityForms::index<terms::Continuity>());
+
+  force_.template use<0>() = {options_.pressure, true, {true, walls}, {}};
+  force_.template use<1>() = {continuity, true, {true, walls}, {}};
+  force_.template use<2>() = {options_.viscosity.value_or(OneOf<terms::ViscosityForms>{}), options_.viscosity.has_value(), {true, friction}, {}};
+  force_.template use<3>() = {options_.artificial.value_or(terms::ViscosityMonaghan{}), options_.artificial.has_value(), {true, friction}, {}};
+  force_.template use<4>() = {options_.diffusion.value_or(OneOf<terms::DiffusionForms>{}), options_.diffusion.has_value(), {true, false}, {}};
+  force_.template use<5>() = {options_.xsph.value_or(terms::Xsph{}), options_.xsph.has_value(), {true, false}, {}};
+  force_.template use<6>() = {{}, true, {true, walls}, {}};
+  auto& fourtakas = force_.template use<4>().term.template get<terms::DiffusionFourtakas>();
+  for (int k = 0; k < N; ++k) fourtakas.gravity[k] = options_.gravity[k];
+
+  continuity_.template use<0>() = {continuity, true, {true, walls}, {}};
+  wall_continuity_.template use<0>() = {continuity, true, {true, false}, {}};
+  summation_.template use<0>() = {{}, true, {true, walls}, {}};
+  shepard_.template use<0>() = {{}, true, {true, walls}, {}};
+  wall_summation_.template use<0>() = {{}, true, {true, false}, {}};
+  gradient_.template use<0>() = {{}, true, {true, false}, {}};
+  wall_force_.template use<0>() = {options_.pressure, true, {true, false}, {}};
+  wall_force_.template use<1>() = {force_.template use<2>().term, options_.viscosity && friction, {true, false}, {}};
+  wall_force_.template use<2>() = {force_.template use<3>().term, options_.artificial && friction, {true, false}, {}};
+}
+
+/// What one evaluation of the rates consists of. The order follows from what the stages read and write.
+template <int N>
+void WeaklyCompressible<N>::make_plan() {
+  const bool walls = options_.wall_density != WallDensity::none;
+  const bool renormalised =
+      options_.diffusion && options_.diffusion->index() == terms::DiffusionForms::index<terms::DiffusionAntuono>();
+
+  add_density_stages();
+  add_update("equation of state", Group::fluid, rules::ApplyEquationOfState{options_.materials});
+  if (options_.rho_law) add_update("smoothing length", Group::fluid, rules::FollowDensity<N>{options_.support.uniform});
+  if (walls) add_wall_stages();
+  if (renormalised) {
+    add_sweep(gradient_, false);
+    add_update("renormalised gradient", Group::fluid, rules::RenormaliseGradient<N>{});
+  }
+  add_sweep(force_, walls);
+  if (norm_sq(options_.gravity) > 0 || options_.body_force) {
+    const Resources changed(Group::fluid, Fields<acc>::set());
+    plan_.add({"body force", Resources(changed).add(Group::fluid, Fields<x>::set()), changed, [this] {
+                 auto a = store_.template get<acc>();
+                 const auto at = store_.template get<x>();
+                 for_each_particle(store_, Group::fluid, [&](std::size_t i) {
+                   a[i] += options_.gravity;
+                   if (options_.body_force) a[i] += options_.body_force(at[i], time_);
+                 });
+               }});
+  }
+
+  FieldSet given_fields = Fields<x, v, m, rho, h, rho_0, mu, rho_wall, x_list>::set();
+  Resources given;
+  for (const Group g : all_groups) given.add(g, given_fields);
+  FieldSet used = given_fields | Fields<p, c, acc, drho, drho_diff, v_xsph, mu_cfl, acc_old, x_start, v_start, rho_start>::set();
+  for (const auto& stage : plan_.stages()) used |= stage.reads.fields() | stage.writes.fields();
+  store_.allocate(used);
+  // Terms that are not in use leave these at zero, and so do walls.
+  given.add(Group::fluid, Fields<grad_rho_l>::set()).add(Group::wall, Fields<grad_rho_l, p, c>::set());
+  plan_.order(given);
+}
+
+template <int N>
+void WeaklyCompressible<N>::add_density_stages() {
+  if (options_.density == DensityForm::evolved) return;
+  if (options_.density == DensityForm::summation) {
+    add_sweep(summation_, options_.wall_density != WallDensity::none);
+    add_update("summed density", Group::fluid, rules::TakeSummedDensity{});
+    return;
+  }
+  // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
+  Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
+  plan_.add({"normalised density", Resources(Group::fluid, Fields<x, m, rho>::set()), touched, [this] {
+               run(summation_);
+               run(shepard_);
+               update(store_, Group::fluid, rules::TakeNormalisedDensity{});
+             }});
+}
+
+template <int N>
+void WeaklyCompressible<N>::add_wall_stages() {
+  if (options_.wall_density == WallDensity::modified) {
+    add_sweep(wall_summation_, false);
+    add_update("wall density", Group::wall, rules::AnswerModifiedDensity{});
+  } else {
+    add_sweep(wall_continuity_, false);
+  }
+  add_update("wall equation of state", Group::wall, rules::ApplyEquationOfState{options_.materials});
+}
+
+template <int N>
+template <class Sweep>
+void WeaklyCompressible<N>::add_sweep(Sweep& sweep, bool from_walls) {
+  const FieldSet needed = Sweep::reads() | Fields<x, h>::set();
+  Resources reads(Group::fluid, needed);
+  if (from_walls || sweep.target() == Group::wall) reads.add(Group::wall, needed);
+  plan_.add({sweep.name(), reads, Resources(sweep.target(), Sweep::adds()), [this, &sweep] { run(sweep); }});
+}
+
+template <int N>
+template <class Update>
+void WeaklyCompressible<N>::add_update(std::string name, Group group, const Update& rule) {
+  plan_.add({std::move(name), Resources(group, Update::reads::set()), Resources(group, Update::writes::set()),
+             [this, group, rule] { update(store_, group, rule); }});
+}
+
+template <int N>
+SweepContext<N> WeaklyCompressible<N>::context() {
+  Support support = options_.support;
+  support.per_particle = options_.rho_law;
+  return {store_, neighbours_, domain_, support, options_.kernels};
+}
+
+template <int N>
+template <class Sweep>
+void WeaklyCompressible<N>::run(Sweep& sweep) {
+  const Stopwatch watch(seconds_sweeps_);
+  sweep.run(context(), options_.backend);
+}
+
+template <int N>
+double WeaklyCompressible<N>::largest_support() const {
+  if (!options_.rho_law) return options_.support.uniform;
+  const auto H = store_.template get<h>();
+  double largest = 0;
+  for (const Group g : all_groups) largest = largest_over(store_, g, largest, [&](std::size_t i) { return H[i]; });
+  return largest;
+}
+
+template <int N>
+void WeaklyCompressible<N>::refresh_lists() {
+  const Stopwatch watch(seconds_lists_);
+  support_now_ = largest_support();
+  if (!neighbours_.stale(store_, support_now_)) return;
+  check_particles();
+  neighbours_.build(store_, support_now_);
+  ++list_builds_;
+}
+
+template <int N>
+void WeaklyCompressible<N>::check_particles() const {
+  const auto at = store_.template get<x>();
+  const IndexRange fluid = store_.range(Group::fluid);
+  for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
+    if (domain_.contains(at[i])) continue;
+    std::string place;
+    for (int k = 0; k < N; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", at[i][k]);
+    throw RunError({.what = fmt::format("particle {} left the domain at t = {:.6g} s: x = ({}) m", store_.ids()[i], time_, place),
+                    .why = "it passed a wall, or was thrown out by a pressure that grew beyond bounds",
+                    .fix = "take a smaller time step, a larger speed of sound, a tight wall ('combined') or a larger [domain]"});
+  }
+}
+
+template <int N>
+void WeaklyCompressible<N>::evaluate() {
+  refresh_lists();
+  plan_.run();
+  const auto a = store_.template get<acc>();
+  const double sum = total_over(store_, Group::fluid, [&](std::size_t i) { return norm_sq(a[i]); });
+  if (std::isfinite(sum)) return;
+  const IndexRange fluid = store_.range(Group::fluid);
+  for (std::size_t i = fluid.begin; i < fluid.end; ++i)
+    if (!std::isfinite(norm_sq(a[i])))
+      throw RunError({.what = fmt::format("the acceleration of particle {} is not finite at t = {:.6g} s", store_.ids()[i], time_),
+                      .why = fmt::format("rho = {:.6g} kg/m^3, p = {:.6g} Pa", store_.template get<rho>()[i], store_.template get<p>()[i]),
+                      .fix = "take a smaller time step, or a kernel fit for pressure"});
+}
+
+template <int N>
+void WeaklyCompressible<N>::drift(double dt) {
+  auto at = store_.template get<x>();
+  auto u = store_.template get<v>();
+  const auto mass = store_.template get<m>();
+  const auto correction = store_.template get<v_xsph>();
+  const auto& g = options_.gravity;
+  struct Work {
+    double xsph = 0, walls = 0;
+    Work& operator+=(const Work& o) {
+      xsph += o.xsph;
+      walls += o.walls;
+      return *this;
+    }
+  };
+  const Work work = total_over(store_, Group::fluid, [&](std::size_t i) {
+    const Vec<N> from = at[i];
+    Vec<N> to = from + dt * (u[i] + correction[i]);
+    Work done{mass[i] * dot(g, dt * correction[i]), 0};
+    if (options_.reflector) {
+      const Bounce<N> bounce = options_.reflector(from, to, u[i]);
+      done.walls = mass[i] * (dot(g, bounce.x - to) + 0.5 * (norm_sq(u[i]) - norm_sq(bounce.v)));
+      to = bounce.x;
+      u[i] = bounce.v;
+    }
+    at[i] = to;
+    return done;
+  });
+  ledger_.xsph += work.xsph;
+  ledger_.walls += work.walls;
+  time_ += dt;
+}
+
+template <int N>
+void WeaklyCompressible<N>::kick(double dt) {
+  auto u = store_.template get<v>();
+  const auto a = store_.template get<acc>();
+  for_each_particle(store_, Group::fluid, [&](std::size_t i) { u[i] += dt * a[i]; });
+}
+
+template <int N>
+void WeaklyCompressible<N>::compress(double dt) {
+  auto density = store_.template get<rho>();
+  const auto rate = store_.template get<drho>();
+  const auto diffused = store_.template get<drho_diff>();
+  if (options_.density == DensityForm::evolved)
+    for_each_particle(store_, Group::fluid, [&](std::size_t i) { density[i] += dt * (rate[i] + diffused[i]); });
+  if (options_.wall_density == WallDensity::evolved)
+    for_each_particle(store_, Group::wall, [&](std::size_t i) { density[i] += dt * rate[i]; });
+}
+
+template <int N>
+void WeaklyCompressible<N>::continuity() {
+  if (options_.density == DensityForm::evolved || options_.wall_density == WallDensity::evolved) refresh_lists();
+  if (options_.density == DensityForm::evolved) run(continuity_);
+  if (options_.wall_density == WallDensity::evolved) run(wall_continuity_);
+}
+
+template <int N>
+void WeaklyCompressible<N>::predict_kick(double dt) {
+  auto old = store_.template get<acc_old>();
+  const auto a = store_.template get<acc>();
+  for_each_particle(store_, Group::fluid, [&](std::size_t i) { old[i] = a[i]; });
+  kick(dt);
+}
+
+template <int N>
+void WeaklyCompressible<N>::correct_kick(double dt) {
+  auto u = store_.template get<v>();
+  const auto a = store_.template get<acc>();
+  const auto old = store_.template get<acc_old>();
+  for_each_particle(store_, Group::fluid, [&](std::size_t i) { u[i] += dt * (a[i] - old[i]); });
+}
+
+template <int N>
+void WeaklyCompressible<N>::save() {
+  std::ranges::copy(store_.template get<x>(), store_.template get<x_start>().begin());
+  std::ranges::copy(store_.template get<v>(), store_.template get<v_start>().begin());
+  std::ranges::copy(store_.template get<rho>(), store_.template get<rho_start>().begin());
+  time_start_ = time_;
+  ledger_start_ = ledger_;
+}
+
+template <int N>
+void WeaklyCompressible<N>::restore() {
+  std::ranges::copy(store_.template get<x_start>(), store_.template get<x>().begin());
+  std::ranges::copy(store_.template get<v_start>(), store_.template get<v>().begin());
+  std::ranges::copy(store_.template get<rho_start>(), store_.template get<rho>().begin());
+  time_ = time_start_;
+  ledger_ = ledger_start_;
+}
+
+template <int N>
+void WeaklyCompressible<N>::book(double dt) {
+  constexpr int fluid = 0, wall = 1;
+  const Power& pressure = force_.template use<0>().power;
+  const Power& compression = force_.template use<1>().power;
+  const Power& viscous = force_.template use<2>().power;
+  const Power& artificial = force_.template use<3>().power;
+  const Power& diffusion = force_.template use<4>().power;
+  ledger_.viscous -= dt * viscous[fluid];
+  ledger_.artificial -= dt * artificial[fluid];
+  ledger_.diffusion -= dt * diffusion[fluid];
+  ledger_.exchange -= dt * (pressure[fluid] + compression[fluid]);
+  ledger_.walls -= dt * (pressure[wall] + compression[wall] + viscous[wall] + artificial[wall]);
+  if (options_.body_force) {
+    const auto at = store_.template get<x>();
+    const auto u = store_.template get<v>();
+    const auto mass = store_.template get<m>();
+    ledger_.body -= dt * total_over(store_, Group::fluid, [&](std::size_t i) {
+      return mass[i] * dot(options_.body_force(at[i], time_), u[i]);
+    });
+  }
+}
+
+template <int N>
+Step WeaklyCompressible<N>::stable_step(const StepLimits& limits) const {
+  if (limits.fixed > 0) return {limits.fixed, "fixed"};
+  const auto H = store_.template get<h>();
+  const auto sound = store_.template get<c>();
+  const auto approach = store_.template get<mu_cfl>();
+  const auto a = store_.template get<acc>();
+  const auto viscosity = store_.template get<mu>();
+  const auto density = store_.template get<rho>();
+  const double kappa = options_.support.kappa;
+  const auto fastest = [&](auto&& rate) { return largest_over(store_, Group::fluid, 0.0, rate); };
+
+  Step step{limits.largest, "largest"};
+  const auto limit = [&](double dt, const char* name) {
+    if (dt < step.dt) step = {dt, name};
+  };
+  limit(limits.courant / fastest([&](std::size_t i) { return (sound[i] + approach[i]) * kappa / H[i]; }), "courant");
+  limit(limits.force / std::sqrt(fastest([&](std::size_t i) { return std::sqrt(norm_sq(a[i])) * kappa / H[i]; })), "force");
+  if (options_.viscosity)
+    limit(limits.viscous / fastest([&](std::size_t i) { return viscosity[i] / density[i] * sq(kappa / H[i]); }), "viscous");
+  return step;
+}
+
+template <int N>
+Energies WeaklyCompressible<N>::energies() const {
+  const auto at = store_.template get<x>();
+  const auto u = store_.template get<v>();
+  const auto mass = store_.template get<m>();
+  const auto density = store_.template get<rho>();
+  const auto material = store_.materials();
+  const auto sum = [&](auto&& f) { return total_over(store_, Group::fluid, f); };
+  Energies e;
+  e.kinetic = sum([&](std::size_t i) { return 0.5 * mass[i] * norm_sq(u[i]); });
+  e.potential = -sum([&](std::size_t i) { return mass[i] * dot(options_.gravity, at[i] - potential_origin_); });
+  e.elastic = sum([&](std::size_t i) { return mass[i] * options_.materials[material[i]].energy(density[i]); });
+  e.ledger = ledger_;
+  return e;
+}
+
+template <int N>
+void WeaklyCompressible<N>::evaluate_wall_forces() {
+  if (options_.wall_density != WallDensity::none) run(wall_force_);
+}
+
+template <int N>
+std::vector<double> WeaklyCompressible<N>::memory() const {
+  std::vector<double> numbers{time_, neighbours_.support()};
+  const auto& l = ledger_;
+  numbers.insert(numbers.end(), {l.viscous, l.artificial, l.diffusion, l.exchange, l.walls, l.xsph, l.body});
+  std::apply([&](const auto&... use) { (numbers.insert(numbers.end(), use.power.begin(), use.power.end()), ...); }, force_.uses());
+  return numbers;
+}
+
+template <int N>
+void WeaklyCompressible<N>::recall(const std::vector<double>& numbers) {
+  auto next = numbers.begin();
+  time_ = *next++;
+  neighbours_.rebuild_from_list_positions(store_, *next++);
+  auto& l = ledger_;
+  for (double* account : {&l.viscous, &l.artificial, &l.diffusion, &l.exchange, &l.walls, &l.xsph, &l.body}) *account = *next++;
+  std::apply(
+      [&](auto&... use) {
+        const auto read = [&](Power& power) {
+          for (double& number : power) number = *next++;
+        };
+        (read(use.power), ...);
+      },
+      force_.uses());
+  support_now_ = largest_support();
+}
+
+
+}  // namespace undine

@@ -1,0 +1,7 @@
+#include "undine/schemes/weakly_compressible.ipp"
+
+namespace undine {
+
+template class WeaklyCompressible<2>;
+
+}  // namespace undine

@@ -1,0 +1,77 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "undine/backend/backend.hpp"
+#include "undine/engine/neighbours.hpp"
+#include "undine/engine/smoothing.hpp"
+#include "undine/kernels/kernel.hpp"
+#include "undine/materials/catalogue.hpp"
+#include "undine/terms/catalogue.hpp"
+#include "undine/walls/catalogue.hpp"
+
+namespace undine {
+
+/// Where the density of fluid particles comes from.
+enum class DensityForm {
+  evolved,    ///< integrated from a continuity form
+  summation,  ///< summed over the neighbours
+  normalised  ///< summed, divided by the Shepard sum over the same fluid
+};
+
+/// Where a particle ends that set out from `from` to `to` with velocity v, past elastic walls.
+template <int N>
+struct Bounce {
+  Vec<N> x, v;
+};
+template <int N>
+using Reflector = std::function<Bounce<N>(const Vec<N>& from, const Vec<N>& to, const Vec<N>& v)>;
+
+/// Imposed acceleration at (x, t), m/s^2.
+template <int N>
+using BodyForce = std::function<Vec<N>(const Vec<N>& x, double t)>;
+
+/// Every choice of a weakly compressible run, as data.
+template <int N>
+struct WeaklyCompressibleOptions {
+  std::array<KernelChoice, kernel_roles> kernels;
+  Support support;          ///< `uniform` is the largest H at the start
+  bool rho_law = false;     ///< H = H_0 (rho_0/rho)^(1/N), Niedoba (2012), eq. 2.67
+
+  DensityForm density = DensityForm::evolved;
+  OneOf<terms::ContinuityForms> continuity;
+  OneOf<terms::PressureForms> pressure;
+  std::optional<OneOf<terms::ViscosityForms>> viscosity;
+  std::optional<terms::ViscosityMonaghan> artificial;
+  std::optional<terms::Xsph> xsph;
+  std::optional<OneOf<terms::DiffusionForms>> diffusion;
+
+  walls::WallDensity wall_density = walls::WallDensity::none;
+  bool wall_friction = true;   ///< whether viscosities act between fluid and walls
+  Reflector<N> reflector;      ///< empty: no elastic walls
+
+  std::vector<materials::Material> materials;
+  Vec<N> gravity{};
+  BodyForce<N> body_force;     ///< empty: gravity alone
+
+  Backend backend;
+  typename Neighbours<N>::Options neighbours;
+};
+
+/// Factors of the step limits; a fixed step when `fixed` > 0.
+struct StepLimits {
+  double fixed = 0;
+  double courant = 0.4;    ///< of h / (c + mu), Monaghan (1992), eq. 10.5
+  double force = 0.25;     ///< of sqrt(h / |acc|)
+  double viscous = 0.125;  ///< of h^2 rho / mu, Morris et al. (1997), eq. 23
+  double largest = 1e300;
+};
+
+struct Step {
+  double dt;
+  const char* limiter;  ///< "fixed", "courant", "force", "viscous", "largest"
+};
+
+}  // namespace undine

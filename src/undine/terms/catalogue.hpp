@@ -1,0 +1,48 @@
+#pragma once
+#include "undine/core/one_of.hpp"
+#include "undine/terms/density/continuity.hpp"
+#include "undine/terms/density/summation.hpp"
+#include "undine/terms/diffusion/antuono.hpp"
+#include "undine/terms/diffusion/fourtakas.hpp"
+#include "undine/terms/diffusion/molteni.hpp"
+#include "undine/terms/pressure/mueller.hpp"
+#include "undine/terms/pressure/plain.hpp"
+#include "undine/terms/pressure/sum.hpp"
+#include "undine/terms/pressure/symmetric.hpp"
+#include "undine/terms/time_step/approach.hpp"
+#include "undine/terms/velocity/strain.hpp"
+#include "undine/terms/velocity/xsph.hpp"
+#include "undine/terms/viscosity/laminar.hpp"
+#include "undine/terms/viscosity/monaghan.hpp"
+#include "undine/terms/viscosity/mueller.hpp"
+
+namespace undine::terms {
+
+// The lists of terms, one line per entry; names in case files, help, docs and tests follow from them.
+
+using PressureForms = Catalogue<  //
+    PressureSymmetric,            //
+    PressureSum,                  //
+    PressureMueller,              //
+    PressurePlain,                //
+    PressureDifference>;
+
+using ContinuityForms = Catalogue<  //
+    Continuity,                     //
+    ContinuityVolume>;
+
+using ViscosityForms = Catalogue<  //
+    ViscosityMorris,               //
+    ViscosityLaminar,              //
+    ViscosityMueller>;
+
+using DiffusionForms = Catalogue<  //
+    DiffusionFourtakas,            //
+    DiffusionMolteni,              //
+    DiffusionAntuono>;
+
+using ArtificialViscosities = Catalogue<ViscosityMonaghan>;
+using VelocityCorrections = Catalogue<Xsph>;
+using Sums = Catalogue<Summation, ShepardSum>;
+
+}  // namespace undine::terms

@@ -1,0 +1,18 @@
+#pragma once
+#include "undine/walls/combined.hpp"
+#include "undine/walls/elastic.hpp"
+#include "undine/walls/modified_density.hpp"
+#include "undine/walls/none.hpp"
+#include "undine/walls/wall_particles.hpp"
+
+namespace undine::walls {
+
+/// The one list of wall treatments. A wall is a neighbour that answers with values: terms know none of this.
+using Walls = Catalogue<   //
+    Combined,              //
+    WallParticles,         //
+    ModifiedDensity,       //
+    Elastic,               //
+    None>;
+
+}  // namespace undine::walls

@@ -1,0 +1,70 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "undine/engine/pair_sweep.hpp"
+#include "undine/terms/catalogue.hpp"
+
+namespace undine::test {
+
+/// The terms that are in no list: each does one fixed job.
+using LoneTerms = Catalogue<terms::DensityGradient, terms::VelocityGradient, terms::ApproachSpeed>;
+
+template <class List>
+struct EveryTermOf;
+template <class... Sum, class... Lone>
+struct EveryTermOf<std::tuple<Catalogue<Sum...>, Catalogue<Lone...>>> {
+  template <int N>
+  using Sweep = PairSweep<N, Use<OneOf<terms::PressureForms>, KernelRole::pressure>,          //
+                          Use<OneOf<terms::ContinuityForms>, KernelRole::pressure>,           //
+                          Use<OneOf<terms::ViscosityForms>, KernelRole::viscosity>,           //
+                          Use<OneOf<terms::ArtificialViscosities>, KernelRole::viscosity>,    //
+                          Use<OneOf<terms::DiffusionForms>>,                                  //
+                          Use<OneOf<terms::VelocityCorrections>>,                             //
+                          Use<Sum>..., Use<Lone>...>;
+};
+
+/// One sweep that holds every term of terms/catalogue.hpp, to be used one at a time.
+template <int N>
+using EveryTerm = EveryTermOf<std::tuple<terms::Sums, LoneTerms>>::Sweep<N>;
+
+/// Calls f(Term{}) for every term.
+template <class F>
+void for_each_term(F&& f) {
+  terms::PressureForms::for_each(f);
+  terms::ContinuityForms::for_each(f);
+  terms::ViscosityForms::for_each(f);
+  terms::ArtificialViscosities::for_each(f);
+  terms::DiffusionForms::for_each(f);
+  terms::VelocityCorrections::for_each(f);
+  terms::Sums::for_each(f);
+  LoneTerms::for_each(f);
+}
+
+/// Lets the sweep use that term alone, from these groups; its parameters are those of `term`.
+template <class Term, int N>
+void use_only(EveryTerm<N>& sweep, const Term& term, std::array<bool, group_count> sources = {true, true}) {
+  const auto one = [&]<class U>(U& use) {
+    use.active = false;
+    if constexpr (std::is_same_v<typename U::Term, Term>) {
+      use = {term, true, sources, {}};
+    } else if constexpr (requires { use.term.template get<Term>(); }) {
+      use.term.choose(U::Term::List::template index<Term>());
+      use.term.template get<Term>() = term;
+      use.active = true;
+      use.sources = sources;
+    }
+  };
+  std::apply([&](auto&... uses) { (one(uses), ...); }, sweep.uses());
+}
+
+}  // namespace undine::test
+
+namespace undine {
+
+extern template void test::EveryTerm<1>::run(const SweepContext<1>&, const Backend&);
+extern template void test::EveryTerm<2>::run(const SweepContext<2>&, const Backend&);
+extern template void test::EveryTerm<3>::run(const SweepContext<3>&, const Backend&);
+
+}  // namespace undine
