@@ -28,7 +28,7 @@ struct Bounds {
 
   /// Strictly inside, so false on a face.
   bool holds(const Vec3& p) const {
-    return (p[0] > lo[0]) & (p[0] < hi[0]) & (p[1] > lo[1]) & (p[1] < hi[1]) & (p[2] > lo[2]) & (p[2] < hi[2]);
+    return (p[0] > lo[0]) && (p[0] < hi[0]) && (p[1] > lo[1]) && (p[1] < hi[1]) && (p[2] > lo[2]) && (p[2] < hi[2]);
   }
 
   /// True when the segment lies beyond one and the same face, so that it cannot meet the box.

@@ -79,10 +79,12 @@ class MeshShape final : public Shape {
   bool clear(const Vec3& from, const Vec3& to, Side side) const override {
     if (side == Side::outside && tree_.bounds().clear_of(from, to)) return true;
     std::call_once(once_, [this] { grid_ = std::make_unique<ClearanceGrid>(tree_); });
-    const double step_sq = norm_sq(to - from) * (1 + 1e-12);
-    const double room = grid_->room(from);
-    if ((side == Side::inside ? -room : room) > 0 && sq(room) > step_sq) return true;
-    return Shape::clear(from, to, side);
+    double room = grid_->room(from);
+    if (room == 0) room = tree_.signed_distance(from);
+    const double depth = side == Side::inside ? -room : room;
+    // The ray goes on a little beyond the end, so that an end within rounding of the surface does not pass.
+    if (!(depth > 1e-9 * tree_.bounds().scale())) return false;
+    return sq(depth) > norm_sq(to - from) * (1 + 1e-12) || !tree_.first_hit(from, to + 1e-6 * (to - from));
   }
 
  private:

@@ -1,4 +1,4 @@
-#include "undine/schemes/weakly_compressible.ipp"
+#include "undine/schemes/weakly_compressible_impl.hpp"
 
 namespace undine {
 

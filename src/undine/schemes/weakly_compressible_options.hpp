@@ -6,6 +6,7 @@
 
 #include "undine/backend/backend.hpp"
 #include "undine/engine/neighbours.hpp"
+#include "undine/engine/pair.hpp"
 #include "undine/engine/smoothing.hpp"
 #include "undine/kernels/kernel.hpp"
 #include "undine/materials/catalogue.hpp"

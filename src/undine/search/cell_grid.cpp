@@ -5,6 +5,14 @@
 #include <numeric>
 
 namespace undine {
+namespace {
+
+// Which side of a face a point lies on is subject to rounding. Cells are wider than the radius by more than that, so that two points
+// nearer than the radius never have a whole cell between them.
+constexpr double wider = 1 + 1e-6;
+constexpr double farther = 1 + 1e-7;
+
+}  // namespace
 
 template <int N>
 void CellGrid<N>::build(std::span<const Vec<N>> points, double radius, const Domain<N>& domain) {
@@ -25,7 +33,7 @@ void CellGrid<N>::build(std::span<const Vec<N>> points, double radius, const Dom
   for (std::size_t i = 0; i < points.size(); ++i) order_[next[cell[i]]++] = static_cast<std::uint32_t>(i);
 }
 
-/// Cells at least one radius wide over the points' bounding box (over the period on a periodic axis); wider where particles far
+/// Cells a little more than one radius wide over the points' bounding box (over the period on a periodic axis); wider where particles far
 /// apart would ask for many more cells than there are points.
 template <int N>
 void CellGrid<N>::choose_cells(double radius) {
@@ -44,7 +52,7 @@ void CellGrid<N>::choose_cells(double radius) {
     }
   }
   const double most = 4.0 * static_cast<double>(points_.size()) + 1000.0;
-  for (double width = radius;; width *= 1.5) {
+  for (double width = wider * radius;; width *= 1.5) {
     double count = 1;
     for (int k = 0; k < N; ++k) {
       const double fit = std::floor((high[k] - low_[k]) / width);
@@ -82,7 +90,7 @@ void CellGrid<N>::find(const Vec<N>& x, double radius, std::vector<std::uint32_t
   const Cell centre = cell_of(x);
   Cell low, high;
   for (int k = 0; k < N; ++k) {
-    const int reach = static_cast<int>(std::ceil(radius / cell_size_[k]));
+    const int reach = static_cast<int>(std::ceil(farther * radius / cell_size_[k]));
     low[k] = centre[k] - reach;
     high[k] = centre[k] + reach;
     if (!domain_.periodic[k]) {

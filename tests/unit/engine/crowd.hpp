@@ -98,7 +98,6 @@ Crowd<N> make_crowd(const CrowdOptions& o, std::uint64_t seed = 1) {
     store.template get<field::m>()[i] = near(1000, 0.1) * std::pow(o.spacing, N);
     store.template get<field::rho_0>()[i] = 1000;
     store.template get<field::mu>()[i] = near(1, 0.5);
-    store.template get<field::c_0>()[i] = 30;
     store.template get<field::p>()[i] = random.between(-1e4, 1e4);
     store.template get<field::c>()[i] = near(30, 0.1);
     store.template get<field::grad_rho_l>()[i] = random.vector<N>(1e3);

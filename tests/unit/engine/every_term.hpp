@@ -42,18 +42,25 @@ void for_each_term(F&& f) {
   LoneTerms::for_each(f);
 }
 
+template <class Term, class Entry>
+inline constexpr bool offers = std::is_same_v<Term, Entry>;
+template <class Term, class... Entries>
+inline constexpr bool offers<Term, OneOf<Catalogue<Entries...>>> = (std::is_same_v<Term, Entries> || ...);
+
 /// Lets the sweep use that term alone, from these groups; its parameters are those of `term`.
 template <class Term, int N>
 void use_only(EveryTerm<N>& sweep, const Term& term, std::array<bool, group_count> sources = {true, true}) {
   const auto one = [&]<class U>(U& use) {
     use.active = false;
-    if constexpr (std::is_same_v<typename U::Term, Term>) {
-      use = {term, true, sources, {}};
-    } else if constexpr (requires { use.term.template get<Term>(); }) {
-      use.term.choose(U::Term::List::template index<Term>());
-      use.term.template get<Term>() = term;
+    if constexpr (offers<Term, typename U::Term>) {
       use.active = true;
       use.sources = sources;
+      if constexpr (requires { use.term.index(); }) {
+        use.term.choose(U::Term::List::template index<Term>());
+        use.term.template get<Term>() = term;
+      } else {
+        use.term = term;
+      }
     }
   };
   std::apply([&](auto&... uses) { (one(uses), ...); }, sweep.uses());

@@ -130,14 +130,14 @@ void exact_radii() {
   Random random(11);
   const double spacing = 0.1;
   std::vector<Vec<N>> points;
-  for (int k = 0; k < 200; ++k) {
+  for (int k = 0; k < 120; ++k) {
     Vec<N> x;
     for (int d = 0; d < N; ++d) x[d] = spacing * std::floor(random.between(0, 10));
     points.push_back(x);
   }
   for (int periodic = 0; periodic < 1 << N; ++periodic) {
     const auto domain = box<N>(0, 1, periodic);
-    for (int k = 1; k < 40; ++k) {
+    for (int k = 1; k < 25; ++k) {
       const double distance = norm(domain.nearest_image(points[0] - points[k]));
       if (distance == 0) continue;
       const double more = std::nextafter(distance, 9.0), less = std::nextafter(distance, 0.0);

@@ -1,0 +1,188 @@
+#include "undine/app/case_scheme.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "undine/core/error.hpp"
+#include "undine/integrators/catalogue.hpp"
+#include "undine/schemes/presets.hpp"
+
+namespace undine {
+namespace {
+
+/// Reads the parameters of a term or an equation of state; the members' values are the defaults.
+template <class T>
+void read_parameters(const Table& table, T& owner) {
+  for_each_parameter<T>([&](const auto& parameter) {
+    const Dimension dimension =
+        parameter.unit == "1" || parameter.unit == "SI" ? unit::one : parse_quantity("1 " + std::string(parameter.unit)).dimension;
+    owner.*parameter.member = table.in_range(parameter.name, dimension, {parameter.low, parameter.high}, owner.*parameter.member);
+  });
+}
+
+/// The word chosen for `form`, out of the names of a list and further words.
+template <class List>
+std::string read_form(const Table& table, std::string_view fallback, std::vector<std::string> more = {}) {
+  auto names = List::names();
+  names.insert(names.end(), more.begin(), more.end());
+  return table.choice("form", names, std::string(fallback));
+}
+
+/// A choice out of a list of terms with its parameters, or nothing for "none".
+template <class List>
+std::optional<OneOf<List>> read_optional(const Table& table, std::string_view fallback) {
+  const std::string form = read_form<List>(table, fallback, {"none"});
+  if (form == "none") return {};
+  OneOf<List> choice;
+  choice.choose(List::index_of(form));
+  choice.with_chosen([&](auto& term) { read_parameters(table, term); });
+  return choice;
+}
+
+template <int N>
+void read_smoothing(const Table& scheme, double spacing, double preset_ratio, WeaklyCompressibleOptions<N>& options) {
+  const Table table = scheme.table("smoothing");
+  auto& support = options.support;
+  // A kernel whose natural kappa is 1 leaves h = H: viscosity and step limits then see the whole support.
+  support.kappa = table.positive("kappa", unit::one, options.kernels[0].natural_kappa());
+  if (table.has("support") && table.has("h_over_spacing"))
+    table.fail("h_over_spacing", "both 'support' and 'h_over_spacing' are given", "they say the same thing: H = kappa h", "keep one of them");
+  if (table.has("h_over_spacing")) {
+    support.uniform = support.kappa * spacing * table.positive("h_over_spacing", unit::one);
+  } else {
+    support.uniform = table.positive("support", unit::length, preset_ratio * spacing);
+  }
+  const double ratio = support.uniform / spacing;
+  if (ratio < 1.2 || ratio > 8)
+    table.fail(table.has("support") ? "support" : "h_over_spacing",
+               fmt::format("the support radius is {:.3g} spacings", ratio),
+               fmt::format("H = {:.4g} m, spacing = {:.4g} m; below 1.2 a particle has no neighbours, above 8 it has thousands", support.uniform, spacing),
+               "choose support between 2 and 4 spacings (h_over_spacing about 1.0 to 2.0)");
+  options.rho_law = table.choice("law", {"constant", "density"}, "constant") == "density";
+  const std::vector<std::string> means{"arithmetic", "geometric", "max", "min"};
+  support.mean = static_cast<Symmetrisation>(std::ranges::find(means, table.choice("mean", means, "arithmetic")) - means.begin());
+}
+
+template <int N>
+void read_backend(const Table& scheme, WeaklyCompressibleOptions<N>& options) {
+  const std::vector<std::string> kinds(backend_names.begin(), backend_names.end());
+  const std::vector<std::string> precisions(precision_names.begin(), precision_names.end());
+  options.backend.kind = static_cast<BackendKind>(std::ranges::find(kinds, scheme.choice("backend", kinds, "threads")) - kinds.begin());
+  const bool plain = options.backend.kind != BackendKind::threads;
+  options.backend.precision = static_cast<PairPrecision>(
+      std::ranges::find(precisions, scheme.choice("precision", precisions, plain ? "double" : "mixed")) - precisions.begin());
+  if (plain && options.backend.precision == PairPrecision::mixed)
+    scheme.fail("precision", "the serial and checked backends work in double only", "they define what is right",
+                "set precision = \"double\" or backend = \"threads\"");
+  std::vector<std::string> searches;
+  for (const Info& info : search_infos()) searches.emplace_back(info.name);
+  const Table search = scheme.table("search");
+  options.neighbours.search = search.choice("name", searches, "cell_grid");
+  options.neighbours.skin = search.in_range("skin", unit::one, {0, 1}, 0.1);
+  options.neighbours.store_lists = search.flag("lists", options.backend.kind == BackendKind::threads);
+}
+
+template <int N, class Preset>
+SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressibleOptions<N>& options, Preset) {
+  SchemeChoice choice;
+  const Table scheme = root.table("scheme");
+  const std::string kernel = scheme.choice("kernel", Kernels::names(), std::string(Preset::kernel));
+  const char* roles[] = {"density_kernel", "pressure_kernel", "viscosity_kernel"};
+  for (int role = 0; role < kernel_roles; ++role)
+    options.kernels[role] = KernelChoice(Kernels::index_of(scheme.choice(roles[role], Kernels::names(), kernel)));
+  read_smoothing(scheme, spacing, Preset::support_over_spacing, options);
+  read_backend(scheme, options);
+
+  const std::string density =
+      read_form<terms::ContinuityForms>(scheme.table("density"), Preset::density, {"summation", "normalised_summation"});
+  options.density = density == "summation" ? DensityForm::summation
+                    : density == "normalised_summation" ? DensityForm::normalised
+                                                        : DensityForm::evolved;
+  options.continuity.choose(std::max(0, terms::ContinuityForms::index_of(density)));
+  options.pressure.choose(terms::PressureForms::index_of(read_form<terms::PressureForms>(scheme.table("pressure"), Preset::pressure)));
+  options.viscosity = read_optional<terms::ViscosityForms>(scheme.table("viscosity"), Preset::viscosity);
+  options.diffusion = read_optional<terms::DiffusionForms>(scheme.table("density_diffusion"), Preset::diffusion);
+  if (const Table t = scheme.table("artificial_viscosity"); read_form<terms::ArtificialViscosities>(t, Preset::artificial, {"none"}) != "none") {
+    options.artificial = terms::ViscosityMonaghan{Preset::alpha, 0};
+    read_parameters(t, *options.artificial);
+  }
+  if (const Table t = scheme.table("xsph"); read_form<terms::VelocityCorrections>(t, Preset::xsph, {"none"}) != "none") {
+    options.xsph = terms::Xsph{Preset::epsilon};
+    read_parameters(t, *options.xsph);
+  }
+
+  const Table wall = scheme.table("wall");
+  const std::string treatment = wall.choice("treatment", walls::Walls::names(), std::string(Preset::wall));
+  walls::Walls::visit(walls::Walls::index_of(treatment), [&]<class W>(W) {
+    options.wall_density = W::density;
+    choice.reflects = wall.flag("guard", W::reflects);
+  });
+  choice.wall_particles = options.wall_density != walls::WallDensity::none;
+  options.wall_friction = wall.flag("friction", true);
+  choice.restitution = wall.in_range("restitution", unit::one, {0, 1}, 1.0);
+  choice.wall_layers = static_cast<int>(wall.integer("layers", Preset::wall_layers));
+  if (options.wall_density == walls::WallDensity::modified) {
+    choice.wall_reference = wall.choice("reference", {"auto", "rho_0", "given"}, std::string(Preset::wall_reference));
+    if (choice.wall_reference == "given") choice.wall_reference_density = wall.positive("reference_density", unit::density);
+  }
+
+  const Table time = root.table("time");
+  choice.end = time.positive("end", unit::time);
+  choice.integrator = time.choice("integrator", integrators::Integrators::names(), std::string(Preset::integrator));
+  if (time.has("step") || (Preset::fixed_step > 0 && !time.has("courant"))) {
+    choice.limits.fixed = time.positive("step", unit::time, Preset::fixed_step);
+  } else {
+    choice.limits.courant = time.positive("courant", unit::one, choice.limits.courant);
+    choice.limits.force = time.positive("force", unit::one, choice.limits.force);
+    choice.limits.viscous = time.positive("viscous", unit::one, choice.limits.viscous);
+    choice.limits.largest = time.positive("largest_step", unit::time, choice.end);
+  }
+  return choice;
+}
+
+}  // namespace
+
+template <int N>
+SchemeChoice read_scheme(const Table& root, double spacing, WeaklyCompressibleOptions<N>& options) {
+  const Table scheme = root.table("scheme");
+  const int preset = presets::Presets::index_of(scheme.choice("name", presets::Presets::names(), "recommended"));
+  SchemeChoice choice = presets::Presets::visit(preset, [&](auto p) { return read_with_preset(root, spacing, options, p); });
+  choice.preset = preset;
+  std::vector<double> none(N, 0.0);
+  choice.gravity = root.quantities("gravity", unit::acceleration, N, none);
+  for (int k = 0; k < N; ++k) options.gravity[k] = choice.gravity[k];
+  return choice;
+}
+
+materials::Material read_material(const Table& table, const SchemeChoice& choice, double expected_speed,
+                                  std::vector<std::string>& warnings) {
+  materials::Material material;
+  material.name = table.text("name", "water");
+  material.rho_0 = table.positive("density", unit::density, 1000.0);
+  const bool saalfeld = choice.preset == presets::Presets::index<presets::Saalfeld>();
+  material.mu = table.non_negative("viscosity", unit::dynamic_viscosity, saalfeld ? 1.52e-3 : 1e-3);
+
+  const Table eos = table.table("eos");
+  const auto fallback = presets::Presets::visit(choice.preset, [](auto p) { return decltype(p)::eos; });
+  const std::string form = read_form<materials::EquationsOfState>(eos, fallback);
+  const double sound_speed = std::max(10 * expected_speed, 1e-3);
+  materials::EquationsOfState::visit(materials::EquationsOfState::index_of(form), [&](auto law) {
+    law.rho_0 = material.rho_0;
+    if constexpr (requires { law.c_0; }) law.c_0 = sound_speed;
+    read_parameters(eos, law);
+    material.eos = law;
+  });
+  const double c = material.sound_speed(material.rho_0);
+  if (c < 9.999 * expected_speed)
+    warnings.push_back(fmt::format("{}: the speed of sound of '{}' is {:.4g} m/s, only {:.2g} times the expected velocity of {:.4g} m/s; density will "
+                                   "vary by more than 1 % (ten times or more is usual: {:.4g} m/s)",
+                                   eos.where().text(), material.name, c, c / expected_speed, expected_speed, sound_speed));
+  return material;
+}
+
+template SchemeChoice read_scheme<1>(const Table&, double, WeaklyCompressibleOptions<1>&);
+template SchemeChoice read_scheme<2>(const Table&, double, WeaklyCompressibleOptions<2>&);
+template SchemeChoice read_scheme<3>(const Table&, double, WeaklyCompressibleOptions<3>&);
+
+}  // namespace undine

@@ -1,0 +1,402 @@
+#include "undine/app/case_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "undine/app/case_shapes.hpp"
+#include "undine/core/error.hpp"
+#include "undine/geometry/fill.hpp"
+#include "undine/geometry/points.hpp"
+#include "undine/io/snapshot.hpp"
+#include "undine/search/cell_grid.hpp"
+
+namespace undine {
+namespace {
+
+template <int N>
+Vec<N> narrow(const Vec3& p) {
+  Vec<N> q;
+  for (int k = 0; k < N; ++k) q[k] = p[k];
+  return q;
+}
+template <int N>
+Vec3 widen(const Vec<N>& p) {
+  Vec3 q{};
+  for (int k = 0; k < N; ++k) q[k] = p[k];
+  return q;
+}
+
+/// Particles of one body before they enter the store.
+struct Body {
+  std::string name;
+  Group group;
+  int material = 0;
+  std::vector<Vec3> points;
+  std::map<std::string, std::vector<double>> given;  ///< columns of a particle list: vx, vy, vz, rho, m
+  Table table;
+};
+
+template <int N>
+class Reader {
+ public:
+  explicit Reader(const Table& root) : root_(root) {}
+
+  CaseSetup<N> read() {
+    setup_.title = root_.text("title", "");
+    setup_.spacing = root_.positive("spacing", unit::length);
+    setup_.choice = read_scheme<N>(root_, setup_.spacing, setup_.options);
+    const auto fluids = root_.tables("fluid");
+    if (fluids.empty())
+      throw InputError({.what = "the case has no fluid", .where = root_.where(), .why = "nothing would move", .fix = "add a [[fluid]] with a shape"});
+    for (const Table& t : fluids) read_fluid_points(t);
+    for (const Table& t : root_.tables("wall")) read_wall(t);
+    check_bodies();
+    place_domain();
+    read_materials(fluids);
+    fill_store();
+    read_body_force();
+    set_wall_references();
+    connect_reflector();
+    return std::move(setup_);
+  }
+
+ private:
+  std::vector<Vec3> read_particle_list(const Table& table, Body& body) {
+    const auto file = table.path("particles");
+    if (file.extension() == ".csv") {
+      auto list = load_points_csv(file.string(), N);
+      for (std::size_t k = 0; k < list.names.size(); ++k) body.given[list.names[k]] = list.columns[k];
+      return list.points;
+    }
+    const OwnedFrame frame = read_snapshot(file);
+    const OwnedColumn* x = frame.find(frame.position);
+    std::vector<Vec3> points(frame.particles);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (int k = 0; k < std::min(N, x->components); ++k) points[i][k] = x->data[i * x->components + k];
+    for (const auto& column : frame.columns) {
+      if (column.components == 1) body.given[column.name] = column.data;
+      if (column.name != "v") continue;
+      for (int k = 0; k < std::min(N, column.components); ++k)
+        for (std::size_t i = 0; i < points.size(); ++i)
+          body.given[std::string("v") + "xyz"[k]].push_back(column.data[i * column.components + k]);
+    }
+    return points;
+  }
+
+  void read_fluid_points(const Table& table) {
+    Body body{table.text("name", fmt::format("fluid{}", bodies_.size())), Group::fluid, static_cast<int>(bodies_.size()), {}, {}, table};
+    if (table.has("particles")) {
+      body.points = read_particle_list(table, body);
+    } else {
+      const Lattice lattice = table.choice("lattice", {"cubic", "hexagonal"}, "cubic") == "cubic" ? Lattice::cubic : Lattice::hexagonal;
+      LatticeSpec spec{setup_.spacing, N, lattice, {}};
+      if (table.has("anchor")) spec.anchor = read_point(table, "anchor", N);
+      body.points = with_place(table, [&] { return fill_lattice(*read_shape(table.table("shape"), N), spec); });
+      const double jitter = table.in_range("jitter", unit::one, {0, 0.5}, 0.0) * setup_.spacing;
+      if (jitter > 0) shake(body.points, jitter, static_cast<std::uint64_t>(table.integer("seed", 1)));
+    }
+    if (body.points.empty())
+      throw InputError({.what = fmt::format("fluid '{}' has no particles", body.name), .where = table.where(),
+                        .why = fmt::format("no lattice point of spacing {:.4g} m lies in its shape", setup_.spacing),
+                        .fix = "make the shape larger or the spacing smaller"});
+    bodies_.push_back(std::move(body));
+  }
+
+  /// Displaces points by up to `amount` in each coordinate, the same for the same seed on every machine.
+  static void shake(std::vector<Vec3>& points, double amount, std::uint64_t seed) {
+    std::uint64_t state = seed * 0x9e3779b97f4a7c15ULL + 1;
+    for (auto& p : points)
+      for (int k = 0; k < N; ++k) {
+        state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+        p[k] += amount * (static_cast<double>(state >> 11) * 0x1p-52 - 1.0);
+      }
+  }
+
+  /// Geometry errors get the table's place.
+  template <class F>
+  static auto with_place(const Table& table, F&& f) {
+    try {
+      return f();
+    } catch (const InputError& error) {
+      if (error.parts().where.line > 0) throw;
+      auto parts = error.parts();
+      parts.where = table.where();
+      throw InputError(std::move(parts));
+    }
+  }
+
+  int layers_needed() const { return static_cast<int>(std::ceil(setup_.options.support.uniform / setup_.spacing - 1e-9)); }
+
+  void read_wall(const Table& table) {
+    Body body{table.text("name", fmt::format("wall{}", bodies_.size())), Group::wall, 0, {}, {}, table};
+    const Table shape_table = table.table("shape");
+    const Side fluid_side = table.choice("fluid", {"inside", "outside"}, "inside") == "inside" ? Side::inside : Side::outside;
+    const FaceSet open = parse_faces(table.choices("open", {"x-", "x+", "y-", "y+", "z-", "z+"}, {}));
+    const bool has_list = table.has("particles");
+    const bool reflects = setup_.choice.reflects && table.flag("reflects", true);
+    ShapePtr shape;
+    if (!has_list || shape_table.exists()) shape = read_shape(shape_table, N);
+    if (shape && reflects) {
+      const auto box = shape->as_box();
+      if (box && fluid_side == Side::inside) {
+        surface_->add_tank(*box, N, open, setup_.choice.restitution);
+      } else {
+        surface_->add(shape, fluid_side, setup_.choice.restitution);
+      }
+    }
+    if (shape && fluid_side == Side::inside) container_.include(shape->bounds());
+    if (has_list) {
+      body.points = read_particle_list(table, body);
+    } else if (setup_.choice.wall_particles) {
+      body.points = wall_points(table, *shape, fluid_side, open);
+    }
+    if (setup_.choice.wall_particles) bodies_.push_back(std::move(body));
+  }
+
+  std::vector<Vec3> wall_points(const Table& table, const Shape& shape, Side fluid_side, const FaceSet& open) {
+    const auto& choice = setup_.choice;
+    const bool sheet = table.flag("sheet", choice.wall_layers == 1);
+    if (sheet) {
+      const auto box = shape.as_box();
+      if (!box) table.fail("sheet", "a sheet of wall particles needs a box", "points are laid on the box's faces", "set sheet = false or use a box");
+      return fill_face_sheet(*box, {setup_.spacing, N, open});
+    }
+    const int needed = layers_needed();
+    const int layers = static_cast<int>(table.integer("layers", choice.wall_layers > 0 ? choice.wall_layers : needed));
+    if (layers < 1 || (layers < needed && !table.flag("thin", choice.wall_layers > 0)))
+      table.fail("layers", fmt::format("a wall of {} layer{} is thinner than the support", layers, layers == 1 ? "" : "s"),
+                 fmt::format("the support radius {:.4g} m spans {} spacings of {:.4g} m; fluid would feel what is behind the wall",
+                             setup_.options.support.uniform, needed, setup_.spacing),
+                 fmt::format("set layers = {}, leave it out, or say thin = true if this is meant", needed));
+    return with_place(table, [&] {
+      return fill_shell(shape, {setup_.spacing, layers, fluid_side == Side::inside ? Side::outside : Side::inside, N, 0.5, open});
+    });
+  }
+
+  void check_bodies() {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if (!setup_.bodies.emplace(bodies_[b].name, static_cast<int>(b)).second)
+        bodies_[b].table.fail("name", fmt::format("two bodies are named '{}'", bodies_[b].name), {}, "give each its own name");
+      const double closest = 0.5 * setup_.spacing;
+      complain_of(check_overlap(bodies_[b].points, closest), bodies_[b], bodies_[b]);
+      for (std::size_t a = 0; a < b; ++a)
+        if (bodies_[a].group == Group::fluid) complain_of(check_overlap(bodies_[a].points, bodies_[b].points, closest), bodies_[a], bodies_[b]);
+    }
+  }
+
+  void complain_of(const std::optional<Overlap>& overlap, const Body& a, const Body& b) const {
+    if (!overlap) return;
+    const Vec3 p = a.points[overlap->a];
+    throw InputError({.what = fmt::format("'{}' and '{}' overlap", a.name, b.name), .where = b.table.where(),
+                      .why = fmt::format("particles {:.3g} m apart near ({:.4g}, {:.4g}, {:.4g}) m, spacing {:.4g} m", overlap->distance, p[0], p[1], p[2],
+                                         setup_.spacing),
+                      .fix = "move one of them, cut it out with a 'difference', or align their edges to the spacing"});
+  }
+
+  /// The domain: as given, or room around all particles; far enough up for splashes.
+  void place_domain() {
+    Bounds all;
+    for (const auto& body : bodies_)
+      for (const auto& p : body.points) all.include(p);
+    if (!container_.empty()) all.include(container_);
+    const Table table = root_.table("domain");
+    double extent = 0;
+    for (int k = 0; k < N; ++k)
+      if (std::isfinite(all.hi[k] - all.lo[k])) extent = std::max(extent, all.hi[k] - all.lo[k]);
+    std::vector<double> low, high;
+    for (int k = 0; k < N; ++k) {
+      low.push_back(std::max(all.lo[k], -1e30) - extent);
+      high.push_back(std::min(all.hi[k], 1e30) + 2 * extent);
+    }
+    const std::vector<std::string> axes{"x", "y", "z"};
+    const auto periodic = table.choices("periodic", {axes.begin(), axes.begin() + N}, {});
+    if (!periodic.empty()) {
+      low = table.quantities("low", unit::length, N);
+      high = table.quantities("high", unit::length, N);
+    } else {
+      low = table.quantities("low", unit::length, N, low);
+      high = table.quantities("high", unit::length, N, high);
+    }
+    auto& domain = setup_.domain;
+    for (int k = 0; k < N; ++k) {
+      domain.low[k] = low[k];
+      domain.high[k] = high[k];
+      domain.periodic[k] = std::ranges::count(periodic, axes[k]) > 0;
+      if (!(high[k] > low[k])) table.fail("high", fmt::format("the domain is empty along {}", axes[k]), {}, "make high larger than low");
+      const double reach = setup_.options.support.uniform * (1 + setup_.options.neighbours.skin);
+      if (domain.periodic[k] && domain.length(k) < 2 * reach)
+        table.fail("high", fmt::format("the period along {} is {:.4g} m", axes[k], domain.length(k)),
+                   fmt::format("a particle would see its own image: twice the support with skin is {:.4g} m", 2 * reach), "widen the domain or lessen the support");
+    }
+    for (const auto& body : bodies_)
+      for (const auto& p : body.points)
+        if (!domain.contains(narrow<N>(p)))
+          throw InputError({.what = fmt::format("'{}' begins outside the domain", body.name), .where = table.exists() ? table.where() : body.table.where(),
+                            .why = fmt::format("a particle at ({:.4g}, {:.4g}, {:.4g}) m", p[0], p[1], p[2]), .fix = "widen [domain] or move the body"});
+  }
+
+  /// The speed that gravity can give over the fluid's height, or the initial speed; sets the default speed of sound.
+  void read_materials(const std::vector<Table>& fluids) {
+    const auto& g = setup_.options.gravity;
+    double lowest = 1e300, highest = -1e300, speed = 0;
+    for (const auto& body : bodies_)
+      for (std::size_t i = 0; i < body.points.size(); ++i) {
+        const double level = -dot(g, narrow<N>(body.points[i]));
+        lowest = std::min(lowest, level);
+        if (body.group == Group::fluid) {
+          highest = std::max(highest, level);
+          speed = std::max(speed, norm(velocity(body, i)));
+        }
+      }
+    if (highest > lowest) speed = std::max(speed, std::sqrt(2 * (highest - lowest)));
+    setup_.expected_speed = root_.positive("expected_speed", unit::velocity, std::max(speed, 1e-6));
+    for (const Table& table : fluids) setup_.options.materials.push_back(read_material(table, setup_.choice, setup_.expected_speed, setup_.warnings));
+    // E_pot counts from the lowest place that fluid or wall reaches.
+    const double g_sq = norm_sq(g);
+    if (g_sq > 0) setup_.potential_origin = -(lowest / g_sq) * g;
+  }
+
+  Vec<N> velocity(const Body& body, std::size_t i) {
+    Vec<N> v;
+    if (body.given.contains("vx")) {
+      for (int k = 0; k < N; ++k) {
+        const auto column = body.given.find(std::string("v") + "xyz"[k]);
+        v[k] = column == body.given.end() ? 0.0 : column->second[i];
+      }
+      return v;
+    }
+    if (body.group == Group::wall) return v;
+    auto& formulas = velocities_[body.name];
+    if (formulas.empty()) formulas = body.table.expressions("velocity", N, std::vector<Expression>(N));
+    const auto& p = body.points[i];
+    for (int k = 0; k < N; ++k) v[k] = formulas[k](p[0], p[1], p[2], 0);
+    return v;
+  }
+
+  void fill_store() {
+    auto& store = setup_.store;
+    const auto& options = setup_.options;
+    store.allocate(Fields<field::x, field::v, field::rho, field::h, field::m, field::rho_0, field::rho_wall, field::mu, field::x_list>::set());
+    for (const Group group : all_groups)  // ids follow the order of bodies within each group
+      for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        Body& body = bodies_[b];
+        if (body.group != group) continue;
+        const auto& material = options.materials[body.material];
+        const std::size_t at = store.append(group, body.points.size(), body.material);
+        double volume = 1;
+        for (int k = 0; k < N; ++k) volume *= setup_.spacing;
+        const double mass = body.table.positive("particle_mass", unit::mass, material.rho_0 * volume);
+        const auto pressure = initial_pressure(body, material);
+        for (std::size_t i = 0; i < body.points.size(); ++i) {
+          setup_.body_of_id.push_back(static_cast<int>(b));
+          const std::size_t s = at + i;
+          store.template get<field::x>()[s] = narrow<N>(body.points[i]);
+          store.template get<field::v>()[s] = velocity(body, i);
+          const auto given = [&](const char* name, double otherwise) {
+            const auto column = body.given.find(name);
+            return column == body.given.end() ? otherwise : column->second[i];
+          };
+          const double p = pressure(body.points[i]);
+          const double density = material.density(p);
+          if (!std::isfinite(density) || density <= 0)
+            body.table.fail("pressure", fmt::format("no density belongs to a pressure of {:.4g} Pa", p), "the equation of state cannot be that low",
+                            "raise the pressure or the speed of sound");
+          store.template get<field::rho>()[s] = given("rho", density);
+          store.template get<field::m>()[s] = given("m", mass);
+          store.template get<field::h>()[s] = options.support.uniform;
+          store.template get<field::rho_0>()[s] = material.rho_0;
+          store.template get<field::mu>()[s] = material.mu;
+        }
+      }
+  }
+
+  /// Initial pressure as a function of position: a formula, the hydrostatic start, or zero.
+  std::function<double(const Vec3&)> initial_pressure(const Body& body, const materials::Material& material) {
+    if (body.group == Group::wall) return [rest = material.pressure(material.rho_0)](const Vec3&) { return rest; };
+    if (body.table.has("surface")) {
+      const double surface = body.table.quantity("surface", unit::length);
+      const Vec<N> g = setup_.options.gravity;
+      const double strength = norm(g);
+      if (strength == 0) body.table.fail("surface", "a hydrostatic start needs gravity", {}, "set gravity or leave 'surface' out");
+      return [=, &material](const Vec3& p) { return material.rho_0 * std::max(0.0, strength * surface + dot(g, narrow<N>(p))); };
+    }
+    const double rest = material.pressure(material.rho_0);
+    const Expression formula = body.table.expression("pressure", Expression(rest));
+    return [formula](const Vec3& p) { return formula(p[0], p[1], p[2], 0); };
+  }
+
+  void read_body_force() {
+    if (!root_.has("body_force")) return;
+    const auto formulas = root_.expressions("body_force", N);
+    setup_.options.body_force = [formulas](const Vec<N>& x, double t) {
+      const Vec3 p = widen<N>(x);
+      Vec<N> a;
+      for (int k = 0; k < N; ++k) a[k] = formulas[k](p[0], p[1], p[2], t);
+      return a;
+    };
+  }
+
+  /// rho_wref of modified-density walls. "auto": what the wall particles themselves sum to, so that fluid at rest on them
+  /// completes the sum to rho_0.
+  void set_wall_references() {
+    if (setup_.options.wall_density != walls::WallDensity::modified) return;
+    auto& store = setup_.store;
+    const IndexRange r = store.range(Group::wall);
+    const auto x = store.template get<field::x>().subspan(r.begin, r.size());
+    const double H = setup_.options.support.uniform;
+    CellGrid<N> grid;
+    if (setup_.choice.wall_reference == "auto") grid.build(x, H, setup_.domain);
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      double& reference = store.template get<field::rho_wall>()[r.begin + i];
+      reference = setup_.choice.wall_reference == "given" ? setup_.choice.wall_reference_density : store.template get<field::rho_0>()[r.begin + i];
+      if (setup_.choice.wall_reference != "auto") continue;
+      reference = 0;
+      grid.find(x[i], H, found);
+      for (const auto j : found)
+        reference += store.template get<field::m>()[r.begin + j] *
+                     setup_.options.kernels[0].template w<N>(norm(setup_.domain.nearest_image(x[i] - x[j])) / H) / std::pow(H, N);
+    }
+  }
+
+  void connect_reflector() {
+    if (surface_->empty()) return;
+    setup_.options.reflector = [surface = surface_](const Vec<N>& from, const Vec<N>& to, const Vec<N>& v) -> Bounce<N> {
+      const Vec3 a = widen<N>(from), b = widen<N>(to);
+      if (surface->clear(a, b)) return {to, v};
+      const Reflection r = surface->reflect(a, b, widen<N>(v));
+      return {narrow<N>(r.position), narrow<N>(r.velocity)};
+    };
+    const IndexRange fluid = setup_.store.range(Group::fluid);
+    for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
+      const Vec3 p = widen<N>(setup_.store.template get<field::x>()[i]);
+      if (surface_->depth(p) >= 0) continue;
+      throw InputError({.what = "fluid begins on the wrong side of a wall", .where = root_.where("wall"),
+                        .why = fmt::format("a particle at ({:.4g}, {:.4g}, {:.4g}) m is {:.3g} m inside it", p[0], p[1], p[2], -surface_->depth(p)),
+                        .fix = "move the fluid, cut the wall out with a 'difference', or set fluid = \"inside\"/\"outside\" on the wall"});
+    }
+  }
+
+  const Table& root_;
+  CaseSetup<N> setup_;
+  std::vector<Body> bodies_;
+  std::map<std::string, std::vector<Expression>> velocities_;
+  Bounds container_;
+  std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();
+};
+
+}  // namespace
+
+template <int N>
+CaseSetup<N> read_case(const Table& root) {
+  return Reader<N>(root).read();
+}
+
+template CaseSetup<1> read_case<1>(const Table&);
+template CaseSetup<2> read_case<2>(const Table&);
+template CaseSetup<3> read_case<3>(const Table&);
+
+}  // namespace undine

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+#include "undine/app/bench.hpp"
+#include "undine/app/lists.hpp"
+#include "undine/app/run_options.hpp"
+#include "undine/core/error.hpp"
+#include "undine/io/checksum.hpp"
+#include "undine/io/run_record.hpp"
+
+namespace {
+
+using namespace undine;
+
+void add_case_options(CLI::App& command, RunOptions& options) {
+  command.add_option("case", options.file, "case file (TOML)")->required();
+  command.add_option("--set", options.sets, "override a key: --set time.end=\"2 s\"")->allow_extra_args(false);
+  command.add_option("--threads", options.threads, "threads; 0: all cores")->check(CLI::NonNegativeNumber);
+  command.add_option("--out", options.out, "output folder");
+}
+
+int execute(int argc, char** argv) {
+  CLI::App app{"Undine: smoothed particle hydrodynamics, every ingredient chosen in a case file"};
+  app.set_version_flag("--version", std::string(program_version()));
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 130 interrupted (checkpoint written).");
+
+  RunOptions run_options;
+  bool quiet = false, json = false;
+  auto* run = app.add_subcommand("run", "run a case");
+  add_case_options(*run, run_options);
+  run->add_flag("--resume", run_options.resume, "go on from the newest checkpoint of the output folder");
+  run->add_flag("--overwrite", run_options.overwrite, "replace an earlier run in the output folder");
+  run->add_flag("--quiet", quiet, "print errors only");
+  run->add_flag("--json", json, "progress as one JSON object per line");
+
+  RunOptions check_options;
+  auto* check = app.add_subcommand("check", "read a case with everything it names, and say what it resolves to");
+  add_case_options(*check, check_options);
+
+  std::string axis, name;
+  bool list_json_flag = false, markdown = false;
+  auto* list = app.add_subcommand("list", "list the choices of an axis, or the axes");
+  list->add_option("axis", axis, "kernels, pressure, walls, ...");
+  list->add_flag("--json", list_json_flag, "for machines");
+  list->add_flag("--markdown", markdown, "for the docs; all axes when none is named");
+  auto* show = app.add_subcommand("show", "equation, citation, reads, adds and parameters of an entry");
+  show->add_option("name", name, "name, or axis/name")->required();
+
+  std::filesystem::path file;
+  auto* sum = app.add_subcommand("checksum", "hash over all fields of a snapshot or checkpoint, in order of particle id");
+  sum->add_option("file", file)->required();
+
+  BenchOptions bench_options;
+  auto* bench = app.add_subcommand("bench", "time the hot loops on this machine");
+  add_bench_options(*bench, bench_options);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_ok : exit_input;
+  }
+  run_options.verbosity = json ? Verbosity::json : quiet ? Verbosity::quiet : Verbosity::normal;
+  if (run->parsed()) return run_case(run_options);
+  if (check->parsed()) return check_case(check_options);
+  if (list->parsed()) {
+    if (axis.empty()) {
+      fmt::print("{}", markdown ? docs_tables() : list_axes());
+    } else {
+      fmt::print("{}", list_json_flag ? list_json(axis) : markdown ? list_markdown(axis) : list_text(axis));
+    }
+  }
+  if (show->parsed()) fmt::print("{}", show_text(name));
+  if (sum->parsed()) fmt::print("{}\n", checksum_file(file));
+  if (bench->parsed()) return run_bench(bench_options);
+  return exit_ok;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return execute(argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return exit_input;
+  } catch (const RunError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return exit_run;
+  } catch (const Error& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return exit_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "internal error: {}\n", error.what());
+    return exit_internal;
+  }
+}

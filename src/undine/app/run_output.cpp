@@ -1,0 +1,113 @@
+#include "undine/app/run_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "undine/core/error.hpp"
+
+namespace undine {
+namespace {
+
+std::vector<SeriesColumn> energy_columns() {
+  return {{"time", "s"},       {"step"},           {"dt", "s"},          {"kinetic", "J"},    {"potential", "J"},
+          {"elastic", "J"},    {"viscous", "J"},   {"artificial", "J"},  {"diffusion", "J"},  {"exchange", "J"},
+          {"walls", "J"},      {"xsph", "J"},      {"body", "J"},        {"total", "J"},      {"residual", "J"},
+          {"residual_relative"}};
+}
+
+const std::vector<std::string> energy_comments{
+    "kinetic, potential, elastic: energies of the fluid; the next columns: what each term took out of them since t = 0",
+    "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching compression;",
+    "walls: given to walls; xsph: moved against gravity by XSPH; body: given to imposed fields",
+    "total: their sum; residual = total - total at t = 0; residual_relative: of the initial potential energy (or the largest energy)"};
+
+}  // namespace
+
+bool due(double interval, double before, double now) {
+  if (interval <= 0) return false;
+  const auto index = [&](double t) { return std::floor(t / interval + 1e-9); };
+  return before < 0 || index(now) > index(before);
+}
+
+template <int N>
+Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields, std::vector<std::int32_t>& groups) {
+  const Store<N>& store = flow.store();
+  Frame frame{.time = flow.time(), .step = step, .dimensions = N, .particles = store.size()};
+  for (int f = 0; f < FieldId::count; ++f) {
+    const bool wanted = fields.empty() || f == FieldId::x || std::ranges::count(fields, f) > 0;
+    if (!wanted || !store.fields()[f]) continue;
+    const FieldInfo& info = all_fields[f];
+    frame.columns.push_back({std::string(info.name), std::string(info.unit == "1" ? "" : info.unit), info.components(N), store.raw(f).data()});
+  }
+  groups.assign(store.size(), 0);
+  const IndexRange wall = store.range(Group::wall);
+  std::fill(groups.begin() + wall.begin, groups.begin() + wall.end, 1);
+  frame.integers = {{std::string(identity_column), store.ids().data()}, {"material", store.materials().data()}, {"group", groups.data()}};
+  return frame;
+}
+
+template <int N>
+EnergySeries<N>::EnergySeries(const std::filesystem::path& folder, bool resume, double last_time)
+    : series_(resume ? TimeSeries::resume(folder / "energies.csv", energy_columns(), last_time, energy_comments)
+                     : TimeSeries::create(folder / "energies.csv", energy_columns(), energy_comments)) {}
+
+template <int N>
+void EnergySeries<N>::set_start(double total, double potential) {
+  start_total_ = total;
+  start_potential_ = potential;
+}
+
+template <int N>
+double EnergySeries<N>::relative_residual(const Energies& e) const {
+  const double scale = std::max({std::abs(start_potential_), std::abs(e.kinetic), std::abs(start_total_), 1e-300});
+  return (e.total() - start_total_) / (start_potential_ > 0 ? start_potential_ : scale);
+}
+
+template <int N>
+void EnergySeries<N>::add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count) {
+  const Energies e = flow.energies();
+  const auto& l = e.ledger;
+  const std::array row{flow.time(),  static_cast<double>(count), step.dt, e.kinetic, e.potential, e.elastic,  l.viscous, l.artificial,
+                       l.diffusion, l.exchange,                 l.walls, l.xsph,    l.body,      e.total(), e.total() - start_total_,
+                       relative_residual(e)};
+  series_.add(row);
+}
+
+std::vector<std::filesystem::path> Checkpoints::files() const {
+  std::vector<std::filesystem::path> found;
+  if (std::filesystem::is_directory(folder_))
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      if (entry.path().extension() == ".checkpoint") found.push_back(entry.path());
+  std::ranges::sort(found);
+  return found;
+}
+
+void Checkpoints::write(const CheckpointData& data) const {
+  write_checkpoint(folder_ / fmt::format("step_{:012}.checkpoint", data.frame.step), data);
+  const auto all = files();
+  for (std::size_t k = 0; k + 2 < all.size(); ++k) std::filesystem::remove(all[k]);
+}
+
+OwnedCheckpoint Checkpoints::read_newest() const {
+  const auto all = files();
+  std::string reasons;
+  for (auto file = all.rbegin(); file != all.rend(); ++file) try {
+      return read_checkpoint(*file);
+    } catch (const InputError& error) {
+      reasons += (reasons.empty() ? "" : "; ") + error.parts().where.file + " " + error.parts().what;
+    }
+  throw InputError({.what = "there is no checkpoint to resume from", .where = {folder_.string()}, .why = reasons,
+                    .fix = "run without --resume, or name the folder of an interrupted run with --out"});
+}
+
+template Frame frame_of<1>(const WeaklyCompressible<1>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<2>(const WeaklyCompressible<2>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<3>(const WeaklyCompressible<3>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template class EnergySeries<1>;
+template class EnergySeries<2>;
+template class EnergySeries<3>;
+
+}  // namespace undine

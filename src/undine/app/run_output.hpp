@@ -1,0 +1,61 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "undine/io/checkpoint.hpp"
+#include "undine/io/snapshot.hpp"
+#include "undine/io/time_series.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
+
+namespace undine {
+
+/// What [output] says. Intervals in s; 0: never.
+struct OutputPlan {
+  std::filesystem::path folder;
+  double snapshots = 0, energies = 0, checkpoints = 0;
+  std::vector<int> fields;  ///< of snapshots, as in fields.def
+};
+
+/// Whether a multiple of `interval` lies in (before, now]; also at the very start.
+bool due(double interval, double before, double now);
+
+/// The particles as a frame; `group` must live as long as the frame. All fields in use when `fields` is empty.
+template <int N>
+Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields, std::vector<std::int32_t>& groups);
+
+/// The energies of a run as a series, with the residual of the audit.
+template <int N>
+class EnergySeries {
+ public:
+  /// Starts the file, or goes on with it after `last_time` (s).
+  EnergySeries(const std::filesystem::path& folder, bool resume, double last_time);
+  void add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count);
+  void set_start(double total, double potential);
+  double start_total() const { return start_total_; }
+  double start_potential() const { return start_potential_; }
+  /// Residual of the audit relative to the scale: initial potential energy, or the largest energy seen where there is none.
+  double relative_residual(const Energies& e) const;
+
+ private:
+  TimeSeries series_;
+  double start_total_ = 0, start_potential_ = 0;
+};
+
+/// The last two checkpoints of a folder, by step.
+class Checkpoints {
+ public:
+  explicit Checkpoints(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// Writes one and removes all but the last two.
+  void write(const CheckpointData& data) const;
+  /// The newest that is whole; throws InputError when there is none.
+  OwnedCheckpoint read_newest() const;
+
+ private:
+  std::vector<std::filesystem::path> files() const;
+  std::filesystem::path folder_;
+};
+
+}  // namespace undine
