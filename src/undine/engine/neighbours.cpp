@@ -27,7 +27,7 @@ void fill_list(NeighbourList& list, std::size_t n, std::size_t offset, Find&& fi
       for (std::size_t t = task * targets_per_task; t < std::min(n, (task + 1) * targets_per_task); ++t) {
         find(t, found);
         list.starts[t + 1] = found.size();
-        for (const std::uint32_t j : found) parts[task].push_back(j + static_cast<std::uint32_t>(offset));
+        parts[task].insert(parts[task].end(), found.begin(), found.end());
       }
     }
   }
@@ -35,7 +35,8 @@ void fill_list(NeighbourList& list, std::size_t n, std::size_t offset, Find&& fi
   list.indices.resize(list.starts[n]);
 #pragma omp parallel for schedule(static)
   for (std::size_t task = 0; task < tasks; ++task)
-    std::copy(parts[task].begin(), parts[task].end(), list.indices.begin() + list.starts[task * targets_per_task]);
+    std::ranges::transform(parts[task], list.indices.begin() + list.starts[task * targets_per_task],
+                           [&](std::uint32_t j) { return j + static_cast<std::uint32_t>(offset); });
 }
 
 }  // namespace
@@ -53,7 +54,8 @@ void Neighbours<N>::sort_by_space(Store<N>& store) {
     std::vector<std::uint32_t> by_id(r.size());
     std::iota(by_id.begin(), by_id.end(), 0U);
     const auto ids = store.ids().subspan(r.begin, r.size());
-    std::sort(by_id.begin(), by_id.end(), [&](auto a, auto b) { return ids[a] < ids[b]; });
+    const auto earlier = [&](auto a, auto b) { return ids[a] < ids[b]; };
+    if (!std::is_sorted(by_id.begin(), by_id.end(), earlier)) std::sort(by_id.begin(), by_id.end(), earlier);
     std::vector<Vec<N>> x(r.size());
     const auto all_x = store.template get<field::x>();
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = all_x[r.begin + by_id[k]];
@@ -62,7 +64,7 @@ void Neighbours<N>::sort_by_space(Store<N>& store) {
     grid.build(x, list_radius_, domain_);
     std::vector<std::uint32_t> order(r.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = by_id[grid.order()[k]];
-    store.permute(group, order);
+    if (!std::is_sorted(order.begin(), order.end())) store.permute(group, order);
   }
 }
 

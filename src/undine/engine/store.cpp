@@ -8,7 +8,8 @@ namespace {
 /// Rows of `width` numbers: row k of the range takes what was in row order[k].
 template <class T>
 void permute_rows(T* rows, std::size_t width, std::span<const std::uint32_t> order) {
-  std::vector<T> old(rows, rows + order.size() * width);
+  const std::vector<T> old(rows, rows + order.size() * width);
+#pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < order.size(); ++k) std::copy_n(old.data() + order[k] * width, width, rows + k * width);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "undine/core/pack.hpp"
+#include "undine/engine/lanes.hpp"
 #include "undine/engine/neighbours.hpp"
 #include "undine/engine/pair.hpp"
 #include "undine/engine/smoothing.hpp"
@@ -263,15 +264,17 @@ class SweepLoop {
     const int valid = static_cast<int>(std::min<std::size_t>(lanes, list.size() - at));
     for (int k = 0; k < lanes; ++k) from[k] = records_.data() + std::size_t{list[at + std::min(k, valid - 1)]} * stride;
 
+    V numbers[stride];
+    detail::LoadLanes<V, stride>::load(from, numbers);
     Vec<N, V> x_b;
-    for (int k = 0; k < N; ++k) x_b[k] = lane_load(from, k);
+    for (int k = 0; k < N; ++k) x_b[k] = numbers[k];
     RowOfReads row_b;
-    load_row(row_b, [&](int k) { return lane_load(from, k); });
+    load_row(row_b, [&](int k) { return numbers[k]; });
 
     Pair<N, V, Mask> ab;
     ab.dx = code_.template difference<V>(x_a, x_b);
     const auto& support = context_.support;
-    ab.support = support.per_particle ? pair_support<V>(support.mean, h_a, lane_load(from, N)) : V(static_cast<Real>(support.uniform));
+    ab.support = support.per_particle ? pair_support<V>(support.mean, h_a, numbers[N]) : V(static_cast<Real>(support.uniform));
     ab.r_sq = norm_sq(ab.dx);
     ab.h = ab.support * V(static_cast<Real>(1.0 / support.kappa));
     if (valid < lanes) ab.r_sq = pad(ab.r_sq, valid, ab.support);
@@ -282,13 +285,6 @@ class SweepLoop {
     evaluate(source, row_a, row_b, ab, inv_h, sums, std::index_sequence_for<Uses...>{});
   }
 
-  static V lane_load(const Real* const* from, int component) {
-    if constexpr (lanes == 1) {
-      return from[0][component];
-    } else {
-      return V::generate([&](int k) { return from[k][component]; });
-    }
-  }
   static V pad(const V& r_sq, int valid, const V& h) {
     if constexpr (lanes == 1) {
       return r_sq;
@@ -312,8 +308,9 @@ class SweepLoop {
       if (role > 0 && kernels[role].index() == kernels[0].index()) {
         values[role] = values[0];
       } else {
-        values[role] = {kernels[role].template w<N>(R) * inv_h_n,
-                        kernels[role].template slope_over_R<N>(R) * (inv_h_n * inv_h * inv_h)};
+        kernels[role].visit([&]<class Kernel>(Kernel) {
+          values[role] = {Kernel::template w<N>(R) * inv_h_n, Kernel::template slope_over_R<N>(R) * (inv_h_n * inv_h * inv_h)};
+        });
       }
     }
     const auto one = [&]<class U>(U& use, Sums<U, V>& sum) {

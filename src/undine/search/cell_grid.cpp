@@ -31,6 +31,8 @@ void CellGrid<N>::build(std::span<const Vec<N>> points, double radius, const Dom
   order_.resize(points.size());
   auto next = starts_;
   for (std::size_t i = 0; i < points.size(); ++i) order_[next[cell[i]]++] = static_cast<std::uint32_t>(i);
+  sorted_points_.resize(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) sorted_points_[k] = points[order_[k]];
 }
 
 /// Cells a little more than one radius wide over the points' bounding box (over the period on a periodic axis); wider where particles far
@@ -102,27 +104,42 @@ void CellGrid<N>::find(const Vec<N>& x, double radius, std::vector<std::uint32_t
       high[k] = cells_[k] - 1;
     }
   }
-  scan(low, high, x, radius, found);
+  std::size_t candidates = 0;
+  for_each_run(low, high, [&](std::uint32_t begin, std::uint32_t end) { candidates += end - begin; });
+  if (candidates == 0) return;
+  found.resize(candidates);
+  std::size_t count = 0;
+  const double radius_sq = sq(radius);
+  const bool periodic = domain_.any_periodic();
+  for_each_run(low, high, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const Vec<N> d = x - sorted_points_[k];
+      found[count] = order_[k];  // kept only if the count moves on: no branch to mispredict
+      count += norm_sq(periodic ? domain_.nearest_image(d) : d) < radius_sq;
+    }
+  });
+  found.resize(count);
   // Points stored in cell order come out ascending already, but for periodic images.
   if (!std::is_sorted(found.begin(), found.end())) std::sort(found.begin(), found.end());
 }
 
+/// Calls f(begin, end) for the points of the cells from low to high (both included), a row of cells at a time.
 template <int N>
-void CellGrid<N>::scan(const Cell& low, const Cell& high, const Vec<N>& x, double radius,
-                       std::vector<std::uint32_t>& found) const {
-  const double radius_sq = sq(radius);
-  const bool periodic = domain_.any_periodic();
+template <class F>
+void CellGrid<N>::for_each_run(const Cell& low, const Cell& high, F&& f) const {
   Cell cell = low;
   for (;;) {
-    for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0]) {
-      Cell image = cell;
-      for (int k = 0; k < N; ++k)
-        if (domain_.periodic[k]) image[k] = (cell[k] + cells_[k]) % cells_[k];
-      const std::size_t c = flat(image);
-      for (std::uint32_t k = starts_[c]; k < starts_[c + 1]; ++k) {
-        const Vec<N> d = x - points_[order_[k]];
-        if (norm_sq(periodic ? domain_.nearest_image(d) : d) < radius_sq) found.push_back(order_[k]);
+    Cell image = cell;
+    for (int k = 0; k < N; ++k)
+      if (domain_.periodic[k]) image[k] = (cell[k] + cells_[k]) % cells_[k];
+    if (domain_.periodic[0]) {
+      for (int c = low[0]; c <= high[0]; ++c) {
+        image[0] = (c + cells_[0]) % cells_[0];
+        f(starts_[flat(image)], starts_[flat(image) + 1]);
       }
+    } else {
+      const std::size_t row = flat(image);
+      f(starts_[row], starts_[row + static_cast<std::size_t>(high[0] - low[0]) + 1]);
     }
     int axis = 1;
     for (; axis < N; ++axis) {
@@ -135,7 +152,7 @@ void CellGrid<N>::scan(const Cell& low, const Cell& high, const Vec<N>& x, doubl
 
 template <int N>
 std::size_t CellGrid<N>::bytes() const {
-  return (order_.capacity() + starts_.capacity()) * sizeof(std::uint32_t);
+  return (order_.capacity() + starts_.capacity()) * sizeof(std::uint32_t) + sorted_points_.capacity() * sizeof(Vec<N>);
 }
 
 template class CellGrid<1>;

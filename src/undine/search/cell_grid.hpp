@@ -23,7 +23,8 @@ class CellGrid final : public NeighbourSearch<N> {
   Cell cell_of(const Vec<N>& x) const;
   std::size_t flat(const Cell& cell) const;
   void choose_cells(double radius);
-  void scan(const Cell& low, const Cell& high, const Vec<N>& x, double radius, std::vector<std::uint32_t>& found) const;
+  template <class F>
+  void for_each_run(const Cell& low, const Cell& high, F&& f) const;
 
   std::span<const Vec<N>> points_;
   Domain<N> domain_;
@@ -31,6 +32,7 @@ class CellGrid final : public NeighbourSearch<N> {
   Vec<N> cell_size_;
   Cell cells_;
   std::vector<std::uint32_t> order_, starts_;
+  std::vector<Vec<N>> sorted_points_;  ///< in the order of `order_`, so that a cell's points lie side by side
 };
 
 extern template class CellGrid<1>;
