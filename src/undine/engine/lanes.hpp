@@ -24,7 +24,7 @@ struct LoadLanes {
 /// Packs of 4, 8 or 16 lanes: four components at a time by 4 x 4 transpositions in registers, a third of the work of loading number
 /// by number. Lane 4 j + l of a group comes from element j of row l, so rows l, l + 4, l + 8, ... are loaded side by side.
 template <class T, int components>
-  requires(Pack<T>::lanes % 4 == 0)
+  requires(Pack<T>::lanes == 4 || Pack<T>::lanes == 8 || Pack<T>::lanes == 16)
 struct LoadLanes<Pack<T>, components> {
   static constexpr int lanes = Pack<T>::lanes;
   typedef T Four __attribute__((vector_size(4 * sizeof(T))));
@@ -47,11 +47,30 @@ struct LoadLanes<Pack<T>, components> {
  private:
   static Pack<T> pack(const All& all) { return Pack<T>(std::bit_cast<typename Pack<T>::Native>(all)); }
 
-  /// Elements k .. k+3 of rows 0, 4, 8, ... one after the other.
+  static Four four(const T* row) {
+    Four elements;
+    std::memcpy(&elements, row, sizeof(Four));
+    return elements;
+  }
+  template <int... I, class Part>
+  static auto joined(const Part& a, const Part& b, std::integer_sequence<int, I...>) {
+    return __builtin_shufflevector(a, b, I...);
+  }
+
+  /// Elements k .. k+3 of rows 0, 4, 8, ... one after the other; joined in registers, for a detour through memory stalls.
   static All side_by_side(const T* const* from, int k) {
-    All all;
-    for (int j = 0; j < lanes / 4; ++j) std::memcpy(reinterpret_cast<char*>(&all) + j * sizeof(Four), from[4 * j] + k, sizeof(Four));
-    return all;
+    if constexpr (lanes == 4) {
+      return four(from[0] + k);
+    } else {
+      using Eight = std::make_integer_sequence<int, 8>;
+      const auto front = joined(four(from[0] + k), four(from[4] + k), Eight{});
+      if constexpr (lanes == 8) {
+        return front;
+      } else {
+        const auto back = joined(four(from[8] + k), four(from[12] + k), Eight{});
+        return joined(front, back, std::make_integer_sequence<int, 16>{});
+      }
+    }
   }
 
   // Within each group of four: {a0, b0, a1, b1}, {a2, b2, a3, b3}, {a0, a1, b0, b1}, {a2, a3, b2, b3}.

@@ -262,7 +262,12 @@ class SweepLoop {
                  std::size_t at, AllSums& sums) {
     const Real* from[lanes];
     const int valid = static_cast<int>(std::min<std::size_t>(lanes, list.size() - at));
-    for (int k = 0; k < lanes; ++k) from[k] = records_.data() + std::size_t{list[at + std::min(k, valid - 1)]} * stride;
+    const auto record_of = [&](int k) { return records_.data() + std::size_t{list[at + k]} * stride; };
+    if (valid == lanes) {
+      for (int k = 0; k < lanes; ++k) from[k] = record_of(k);
+    } else {
+      for (int k = 0; k < lanes; ++k) from[k] = record_of(std::min(k, valid - 1));
+    }
 
     V numbers[stride];
     detail::LoadLanes<V, stride>::load(from, numbers);

@@ -40,9 +40,11 @@ void expect_good_infos(const std::vector<Info>& infos) {
   std::set<std::string_view> names;
   for (const Info& info : infos) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
-    EXPECT_FALSE(info.name.empty() || info.title.empty() || info.equation.empty() || info.citation.empty()) << info.name;
-    EXPECT_TRUE(std::ranges::all_of(info.name, [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_'; }))
+    EXPECT_FALSE(info.name.empty() || info.title.empty() || info.equation.empty() || info.citation.empty())
         << info.name;
+    EXPECT_TRUE(std::ranges::all_of(info.name, [](unsigned char c) {
+      return std::islower(c) || std::isdigit(c) || c == '_';
+    })) << info.name;
   }
 }
 

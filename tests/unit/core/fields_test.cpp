@@ -25,8 +25,9 @@ TEST(Fields, HaveDistinctNamesAndSayWhatTheyAre) {
   for (const FieldInfo& info : all_fields) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
     EXPECT_FALSE(info.unit.empty() || info.meaning.empty()) << info.name;
-    EXPECT_TRUE(std::ranges::all_of(info.name, [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_'; }))
-        << info.name;
+    EXPECT_TRUE(std::ranges::all_of(info.name, [](unsigned char c) {
+      return std::islower(c) || std::isdigit(c) || c == '_';
+    })) << info.name;
   }
 }
 

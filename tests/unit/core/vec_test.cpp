@@ -1,7 +1,6 @@
 #include "undine/core/vec.hpp"
 
 #include <gtest/gtest.h>
-
 #include <rapidcheck/gtest.h>
 
 #include "undine/core/domain.hpp"

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <omp.h>
+
 #include "undine/engine/neighbours.hpp"
 #include "undine/engine/store.hpp"
 
@@ -40,7 +42,20 @@ class Random {
   std::uint64_t state_;
 };
 
-/// A lattice of particles put out of order, the lowest layers along the last axis being wall, in a box that is periodic or not.
+/// As many threads as asked for while it lives: more than one only slows small runs down.
+class Threads {
+ public:
+  explicit Threads(int n) : before_(omp_get_max_threads()) { omp_set_num_threads(n); }
+  ~Threads() { omp_set_num_threads(before_); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+  int before_;
+};
+
+/// A lattice of particles put out of order, the lowest layers along the last axis being wall, in a box that is periodic
+/// or not.
 struct CrowdOptions {
   int side = 16;          ///< particles along each axis
   double spacing = 0.01;  ///< m
@@ -48,7 +63,7 @@ struct CrowdOptions {
   double origin = 0;      ///< low corner of the box on every axis, spacings
   int wall_layers = 3;
   bool periodic = false;
-  double support = 2.6;   ///< H, spacings; each particle's own h is within 20 % below it
+  double support = 2.6;  ///< H, spacings; each particle's own h is within 20 % below it
 };
 
 template <int N>
@@ -58,7 +73,8 @@ struct Crowd {
   double support;
 };
 
-/// The particles have every field of fields.def: positive ones where physics divides by them, and values of either sign elsewhere.
+/// The particles have every field of fields.def: positive ones where physics divides by them, and values of either sign
+/// elsewhere.
 template <int N>
 Crowd<N> make_crowd(const CrowdOptions& o, std::uint64_t seed = 1) {
   Random random(seed);

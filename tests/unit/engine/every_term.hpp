@@ -16,12 +16,12 @@ struct EveryTermOf;
 template <class... Sum, class... Lone>
 struct EveryTermOf<std::tuple<Catalogue<Sum...>, Catalogue<Lone...>>> {
   template <int N>
-  using Sweep = PairSweep<N, Use<OneOf<terms::PressureForms>, KernelRole::pressure>,          //
-                          Use<OneOf<terms::ContinuityForms>, KernelRole::pressure>,           //
-                          Use<OneOf<terms::ViscosityForms>, KernelRole::viscosity>,           //
-                          Use<OneOf<terms::ArtificialViscosities>, KernelRole::viscosity>,    //
-                          Use<OneOf<terms::DiffusionForms>>,                                  //
-                          Use<OneOf<terms::VelocityCorrections>>,                             //
+  using Sweep = PairSweep<N, Use<OneOf<terms::PressureForms>, KernelRole::pressure>,        //
+                          Use<OneOf<terms::ContinuityForms>, KernelRole::pressure>,         //
+                          Use<OneOf<terms::ViscosityForms>, KernelRole::viscosity>,         //
+                          Use<OneOf<terms::ArtificialViscosities>, KernelRole::viscosity>,  //
+                          Use<OneOf<terms::DiffusionForms>>,                                //
+                          Use<OneOf<terms::VelocityCorrections>>,                           //
                           Use<Sum>..., Use<Lone>...>;
 };
 

@@ -14,7 +14,9 @@ using test::make_crowd;
 using test::Random;
 
 template <int N>
-constexpr int side = N == 1 ? 60 : N == 2 ? 14 : 9;
+constexpr int side = N == 1   ? 60
+                     : N == 2 ? 14
+                              : 9;
 
 /// Calls f.operator()<N>(crowd) for open and periodic crowds in every dimension.
 template <class F>
@@ -50,7 +52,8 @@ std::vector<std::uint32_t> within(const Crowd<N>& crowd, const Vec<N>& at, Group
   return found;
 }
 
-// Criterion: exactly the pairs nearer than the list radius, ascending, whatever the search and whether lists are stored.
+// Criterion: exactly the pairs nearer than the list radius, ascending, whatever the search and whether lists are
+// stored.
 TEST(Neighbours, ListsAreAllPairsWithinTheListRadius) {
   for_crowds([]<int N>(const Crowd<N>& made) {
     for (const auto& info : search_infos())
@@ -71,8 +74,8 @@ TEST(Neighbours, ListsAreAllPairsWithinTheListRadius) {
   });
 }
 
-// Criterion: after moves of just under half the skin, every pair within the support is still in the lists, and they are not stale; with one
-// particle moved further, or a larger support, they are.
+// Criterion: after moves of just under half the skin, every pair within the support is still in the lists, and they are
+// not stale; with one particle moved further, or a larger support, they are.
 TEST(Neighbours, ListsHoldWhileParticlesMoveLessThanHalfTheSkin) {
   for_crowds([]<int N>(Crowd<N> crowd) {
     const auto neighbours = lists_of(crowd);

@@ -71,7 +71,8 @@ TEST(Plan, PutsChangesInPlaceBetweenWritersAndReaders) {
 }
 
 TEST(Plan, ChangesInPlaceOfOneFieldKeepTheGivenOrder) {
-  const std::vector<Stage> stages{{"gravity", fluid<acc>(), fluid<acc>(), {}}, {"drag", fluid<acc>(), fluid<acc>(), {}}};
+  const std::vector<Stage> stages{{"gravity", fluid<acc>(), fluid<acc>(), {}},
+                                  {"drag", fluid<acc>(), fluid<acc>(), {}}};
   EXPECT_EQ(ordered(stages, fluid<acc>()), (Names{"gravity", "drag"}));
 }
 

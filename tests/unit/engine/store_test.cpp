@@ -4,7 +4,6 @@
 #include <set>
 
 #include <gtest/gtest.h>
-
 #include <rapidcheck/gtest.h>
 
 #include "unit/engine/crowd.hpp"
@@ -36,8 +35,8 @@ bool marked(const Store<N>& store, std::size_t i) {
   return good;
 }
 
-// Criterion: after any mix of append, remove and permute, each particle that should be there is, once, in its group, with the values and
-// the material that it was given; no id is ever used twice.
+// Criterion: after any mix of append, remove and permute, each particle that should be there is, once, in its group,
+// with the values and the material that it was given; no id is ever used twice.
 RC_GTEST_PROP(Store, ParticlesKeepTheirValues, ()) {
   constexpr int N = 2;
   test::Random random(*rc::gen::arbitrary<std::uint64_t>());

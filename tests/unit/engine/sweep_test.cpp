@@ -8,8 +8,8 @@
 #include "unit/engine/crowd.hpp"
 #include "unit/engine/every_term.hpp"
 
-// Every term of every list of terms/catalogue.hpp, on disordered fluid and wall particles: each backend against plain serial loops over
-// all pairs. A new term is tested by being in its list.
+// Every term of every list of terms/catalogue.hpp, on disordered fluid and wall particles: each backend against plain
+// serial loops over all pairs. A new term is tested by being in its list.
 
 namespace undine {
 namespace {
@@ -24,7 +24,9 @@ constexpr Backend threads_mixed{BackendKind::threads, PairPrecision::mixed};
 constexpr Backend checked{BackendKind::checked, PairPrecision::double_precision};
 
 template <int N>
-constexpr int side = N == 1 ? 80 : N == 2 ? 16 : 9;
+constexpr int side = N == 1   ? 80
+                     : N == 2 ? 16
+                              : 9;
 
 /// How a sweep is to be run.
 struct Manner {
@@ -81,27 +83,25 @@ double error(const std::vector<std::vector<double>>& values, const std::vector<s
   return worst;
 }
 
-/// The largest error seen, for the record of a test.
+/// The largest error seen, and where.
 struct Worst {
   double value = 0;
   std::string where;
   void note(double seen, const std::string& place) {
     if (seen > value) *this = {seen, place};
   }
-  void record(const char* key) const { ::testing::Test::RecordProperty(key, std::to_string(value) + " " + where); }
 };
 
 struct Errors {
   Worst in_double, in_mixed;
-  void record() const {
-    in_double.record("double");
-    in_mixed.record("mixed");
-    std::printf("    largest relative error: double %.2g (%s), mixed %.2g (%s)\n", in_double.value, in_double.where.c_str(),
-                in_mixed.value, in_mixed.where.c_str());
+  void print() const {
+    std::printf("    largest relative error: double %.2g (%s), mixed %.2g (%s)\n", in_double.value,
+                in_double.where.c_str(), in_mixed.value, in_mixed.where.c_str());
   }
 };
 
-/// Criterion: relative error of threads against serial brute force <= 1e-12 in double and <= 2e-5 mixed, for each term and target group.
+/// Criterion: relative error of threads against serial brute force <= 1e-12 in double and <= 2e-5 mixed, for each term
+/// and target group.
 template <int N>
 void compare(const Crowd<N>& crowd, const Manner& manner, const std::string& place, Errors& errors) {
   SCOPED_TRACE(place);
@@ -130,7 +130,8 @@ void in_each_dimension(F f) {
   f.template operator()<3>();
 }
 
-const std::array<int, kernel_roles> wendland{Kernels::index<WendlandC2>(), Kernels::index<WendlandC2>(), Kernels::index<WendlandC2>()};
+const std::array<int, kernel_roles> wendland{Kernels::index<WendlandC2>(), Kernels::index<WendlandC2>(),
+                                             Kernels::index<WendlandC2>()};
 
 std::string text(int n, bool periodic) { return std::to_string(n) + (periodic ? "-D periodic" : "-D open"); }
 
@@ -140,7 +141,7 @@ TEST(Sweep, ThreadsAgreeWithBruteForce) {
     for (const bool periodic : {false, true})
       compare(make_crowd<N>({.side = side<N>, .periodic = periodic}), {.kernels = wendland}, text(N, periodic), errors);
   });
-  errors.record();
+  errors.print();
 }
 
 // Every kernel in every role.
@@ -148,8 +149,9 @@ TEST(Sweep, ThreadsAgreeWithBruteForceForEveryKernel) {
   Errors errors;
   const auto crowd = make_crowd<2>({.side = 11, .wall_layers = 2});
   for (int k = 0; k < Kernels::size; ++k)
-    compare(crowd, {.kernels = {k, (k + 1) % Kernels::size, (k + 5) % Kernels::size}}, std::string(Kernels::info(k).name), errors);
-  errors.record();
+    compare(crowd, {.kernels = {k, (k + 1) % Kernels::size, (k + 5) % Kernels::size}},
+            std::string(Kernels::info(k).name), errors);
+  errors.print();
 }
 
 TEST(Sweep, ThreadsAgreeWithBruteForceWithASupportPerParticle) {
@@ -157,11 +159,12 @@ TEST(Sweep, ThreadsAgreeWithBruteForceWithASupportPerParticle) {
   in_each_dimension([&]<int N>() {
     const bool periodic = N == 2;
     const auto crowd = make_crowd<N>({.side = N == 2 ? 12 : side<N>, .periodic = periodic});
-    for (const auto mean : {Symmetrisation::arithmetic, Symmetrisation::geometric, Symmetrisation::max, Symmetrisation::min})
+    for (const auto mean :
+         {Symmetrisation::arithmetic, Symmetrisation::geometric, Symmetrisation::max, Symmetrisation::min})
       compare(crowd, {.support = {.kappa = 2, .per_particle = true, .mean = mean}, .kernels = wendland},
               text(N, periodic) + ", mean " + std::to_string(static_cast<int>(mean)), errors);
   });
-  errors.record();
+  errors.print();
 }
 
 TEST(Sweep, ThreadsAgreeWithBruteForceFarFromTheOrigin) {
@@ -171,7 +174,7 @@ TEST(Sweep, ThreadsAgreeWithBruteForceFarFromTheOrigin) {
       compare(make_crowd<N>({.side = N == 3 ? 8 : side<N>, .origin = 1e4, .periodic = periodic}), {.kernels = wendland},
               text(N, periodic), errors);
   });
-  errors.record();
+  errors.print();
 }
 
 // Criterion: the same bits, sums, maxima and booked powers, for 1, 2 and 4 threads.
@@ -202,14 +205,17 @@ TEST(Sweep, GivesTheSameBitsForAnyNumberOfThreads) {
   omp_set_num_threads(threads);
 }
 
-// Criterion: booked power = sum m v.acc (or m p/rho^2 drho) over the targets, to 1e-13; fluid and wall apart add up to both.
+// Criterion: booked power = sum m v.acc (or m p/rho^2 drho) over the targets, to 1e-13; fluid and wall apart add up to
+// both.
 TEST(Sweep, BooksThePowerOfWhatItAdds) {
   Bench<2> bench(make_crowd<2>({.side = 14}), {.kernels = wendland}, "cell_grid", true);
   EveryTerm<2> sweep("test", Group::fluid, Booking::on);
   auto& store = bench.crowd.store;
   const auto booked = [&](Group source) {
     double power = 0;
-    std::apply([&](const auto&... use) { ((power += use.acts_on(source) ? use.power[static_cast<int>(source)] : 0), ...); }, sweep.uses());
+    std::apply(
+        [&](const auto&... use) { ((power += use.acts_on(source) ? use.power[static_cast<int>(source)] : 0), ...); },
+        sweep.uses());
     return power;
   };
   test::for_each_term([&]<class Term>(Term term) {
@@ -220,9 +226,11 @@ TEST(Sweep, BooksThePowerOfWhatItAdds) {
     for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
       const double m = store.get<field::m>()[i], p = store.get<field::p>()[i], rho = store.get<field::rho>()[i];
       double one = 0;
-      if constexpr (Term::adds::template has<field::acc>) one = m * dot(store.get<field::v>()[i], store.get<field::acc>()[i]);
+      if constexpr (Term::adds::template has<field::acc>)
+        one = m * dot(store.get<field::v>()[i], store.get<field::acc>()[i]);
       if constexpr (Term::adds::template has<field::drho>) one = m * p / sq(rho) * store.get<field::drho>()[i];
-      if constexpr (Term::adds::template has<field::drho_diff>) one = m * p / sq(rho) * store.get<field::drho_diff>()[i];
+      if constexpr (Term::adds::template has<field::drho_diff>)
+        one = m * p / sq(rho) * store.get<field::drho_diff>()[i];
       power += one;
       size += std::abs(one);
     }
@@ -238,7 +246,8 @@ TEST(Sweep, SumsOnlyFromTheGroupsItIsGiven) {
     test::use_only<terms::Summation>(sweep, {}, sources);
     return bench.results(sweep, terms::Summation::adds::set(), threads_double)[0];
   };
-  const auto both = density({true, true}), fluid = density({true, false}), wall = density({false, true}), none = density({false, false});
+  const auto both = density({true, true}), fluid = density({true, false}), wall = density({false, true}),
+             none = density({false, false});
   for (std::size_t k = 0; k < both.size(); ++k) {
     EXPECT_NEAR(fluid[k] + wall[k], both[k], 1e-12 * both[k]);
     EXPECT_EQ(none[k], 0);
@@ -248,7 +257,8 @@ TEST(Sweep, SumsOnlyFromTheGroupsItIsGiven) {
   for (const auto& acc : bench.crowd.store.get<field::acc>().first(both.size())) EXPECT_EQ(acc, Vec<2>{});
 }
 
-// Criterion: the checked backend agrees with serial to the bit, and names the sweep, the field and the particle of a bad input.
+// Criterion: the checked backend agrees with serial to the bit, and names the sweep, the field and the particle of a
+// bad input.
 TEST(Sweep, CheckedBackendNamesTheFieldThatNothingWrote) {
   Bench<2> bench(make_crowd<2>({.side = 10}), {.kernels = wendland}, "cell_grid", true);
   EveryTerm<2> sweep("pull", Group::fluid);

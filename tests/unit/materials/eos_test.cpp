@@ -10,7 +10,8 @@
 namespace undine::materials {
 namespace {
 
-/// Calls f(eos) for each equation of state, as it is and with every parameter changed, and at another reference density.
+/// Calls f(eos) for each equation of state, as it is and with every parameter changed, and at another reference
+/// density.
 template <class F>
 void for_all(F f) {
   EquationsOfState::for_each([&]<class Eos>(Eos eos) {
@@ -68,7 +69,8 @@ TEST(EquationsOfState, EnergyIsTheWorkOfPressure) {
     for (const double ratio : ratios) {
       const double rho = ratio * eos.rho_0;
       const double scale = eos.sound_speed(rho) * eos.sound_speed(rho) / rho;
-      EXPECT_NEAR(derivative([&](double r) { return eos.energy(r); }, rho) / scale, eos.pressure(rho) / (rho * rho) / scale, 1e-8)
+      EXPECT_NEAR(derivative([&](double r) { return eos.energy(r); }, rho) / scale,
+                  eos.pressure(rho) / (rho * rho) / scale, 1e-8)
           << ratio;
     }
   });

@@ -3,7 +3,8 @@
 
 #include "unit/schemes/flow.hpp"
 
-// The energy audit of whole runs, and that runs repeat to the bit: for any number of threads, and when they go on from a stored state.
+// The energy audit of whole runs, and that runs repeat to the bit: for any number of threads, and when they go on from
+// a stored state.
 
 namespace undine {
 namespace {
@@ -24,7 +25,8 @@ Bounce<2> in_the_box(const Vec<2>&, const Vec<2>& to, const Vec<2>& velocity) {
   return bounce;
 }
 
-/// A tank of 1 m x 1 m, half filled, with a heap on one side: it sloshes. Walls answer a modified density and reflect (`combined`).
+/// A tank of 1 m x 1 m, half filled, with a heap on one side: it sloshes. Walls answer a modified density and reflect
+/// (`combined`).
 struct Tank {
   int across = 20;
   double spacing = 1.0 / across;
@@ -74,9 +76,12 @@ Audit audit(WeaklyCompressible<2>& flow, double time, int steps) {
 
 void print(const char* what, int steps, const Audit& a) {
   const auto& l = a.end.ledger;
-  std::printf("    %s, %d steps: residual %.3g of %.4g J; viscous %.3g artificial %.3g diffusion %.3g exchange %.3g walls %.3g xsph %.3g "
-              "body %.3g; %ld list builds\n",
-              what, steps, a.residual, a.start, l.viscous, l.artificial, l.diffusion, l.exchange, l.walls, l.xsph, l.body, a.list_builds);
+  std::printf(
+      "    %s, %d steps: residual %.3g of %.4g J; viscous %.3g artificial %.3g diffusion %.3g exchange %.3g walls %.3g "
+      "xsph %.3g "
+      "body %.3g; %ld list builds\n",
+      what, steps, a.residual, a.start, l.viscous, l.artificial, l.diffusion, l.exchange, l.walls, l.xsph, l.body,
+      a.list_builds);
 }
 
 /// Order in time of the residual at 0.15 s, and its size with the coarser step.
@@ -110,8 +115,8 @@ void for_audited(F f) {
   f(evolved, "wall particles");
 }
 
-// Criterion: what the accounts leave unexplained is at most 3e-5 of the initial energy with 300 steps, and falls with the step at an order
-// of at least 1.6 (2 expected).
+// Criterion: what the accounts leave unexplained is at most 3e-5 of the initial energy with 300 steps, and falls with
+// the step at an order of at least 1.6 (2 expected).
 TEST(Audit, ResidualFallsWithTheSquareOfTheStep) {
   const Threads one(1);
   for_audited([](const auto& options, const std::string& what) {
@@ -120,12 +125,15 @@ TEST(Audit, ResidualFallsWithTheSquareOfTheStep) {
   });
 }
 
-// Criterion: order of at least 1.6 for a liquid in free flight that a body force pushes to and fro, for both integrators of second order.
+// Criterion: order of at least 1.6 for a liquid in free flight that a body force pushes to and fro, for both
+// integrators of second order.
 TEST(Audit, BodyForcesAreBookedWhereTheyAct) {
   const Threads one(1);
   const test::PeriodicSquare square;
   auto options = test::liquid<2>(square.support);
-  options.body_force = [](const Vec<2>& at, double t) { return Vec<2>{{100 * std::cos(30 * t) * (2 + std::sin(6.283185307 * at[0])), 0}}; };
+  options.body_force = [](const Vec<2>& at, double t) {
+    return Vec<2>{{100 * std::cos(30 * t) * (2 + std::sin(6.283185307 * at[0])), 0}};
+  };
   const auto residual = [&]<class Integrator>(Integrator, int steps) {
     WeaklyCompressible<2> flow(square.store(), square.domain(), options);
     const auto a = audit<Integrator>(flow, 0.04, steps);
@@ -145,8 +153,9 @@ WeaklyCompressibleOptions<2> everything() {
   return options;
 }
 
-// Criterion: viscosities and diffusion (`molteni`; the others take more than the density difference) take energy at every step; the matching pressure and density forms exchange less than 1e-12 of the
-// total; the residual stays below 1e-4.
+// Criterion: viscosities and diffusion (`molteni`; the others take more than the density difference) take energy at
+// every step; the matching pressure and density forms exchange less than 1e-12 of the total; the residual stays below
+// 1e-4.
 TEST(Audit, AccountsHaveTheirSigns) {
   const Threads one(1);
   const Tank tank;
@@ -172,7 +181,8 @@ TEST(Audit, AccountsHaveTheirSigns) {
   EXPECT_LE(std::abs(flow.energies().total() - start), 1e-4 * start);
 }
 
-// Criterion: forms that do not match exchange at least 1e-5 of the energy, and the account has it: the residual stays below 1e-4.
+// Criterion: forms that do not match exchange at least 1e-5 of the energy, and the account has it: the residual stays
+// below 1e-4.
 TEST(Audit, UnmatchedFormsShowInTheirAccount) {
   const Threads one(1);
   const Tank tank;
@@ -185,7 +195,8 @@ TEST(Audit, UnmatchedFormsShowInTheirAccount) {
   EXPECT_LE(std::abs(a.residual), 1e-4);
 }
 
-// Criterion: mirrored particles keep their speed, stay inside, and the audit closes to 2 % although bounces are events of first order.
+// Criterion: mirrored particles keep their speed, stay inside, and the audit closes to 2 % although bounces are events
+// of first order.
 TEST(Audit, ElasticWallsKeepEverybodyIn) {
   const Threads one(1);
   const Tank tank;
@@ -203,7 +214,8 @@ TEST(Audit, ElasticWallsKeepEverybodyIn) {
     for (int k = 0; k < 2; ++k) EXPECT_TRUE(at[k] >= 0 && at[k] <= 1);
 }
 
-// ---- The same bits ---------------------------------------------------------------------------------------------------
+// ---- The same bits
+// ---------------------------------------------------------------------------------------------------
 
 /// Every number of a run: fields that are state, ids, and what `memory` adds.
 std::vector<double> bits_of(const WeaklyCompressible<2>& flow) {
@@ -230,7 +242,9 @@ void for_repeated(F f) {
     run("everything", [](auto&) {});
     run("wall particles", [](auto& o) { o.wall_density = walls::WallParticles::density; });
     run("antuono", [](auto& o) { o.diffusion = test::chosen<terms::DiffusionForms, terms::DiffusionAntuono>(); });
-    run("body force", [](auto& o) { o.body_force = [](const Vec<2>&, double t) { return Vec<2>{{3 * std::sin(9 * t), 0}}; }; });
+    run("body force", [](auto& o) {
+      o.body_force = [](const Vec<2>&, double t) { return Vec<2>{{3 * std::sin(9 * t), 0}}; };
+    });
     run("summation", [](auto& o) { o.density = DensityForm::summation; });
     run("support follows density", [](auto& o) { o.rho_law = true; });
   }
@@ -258,7 +272,8 @@ TEST(SameBits, ForAnyNumberOfThreads) {
   });
 }
 
-// Criterion: a run that goes on from a copied store and memory has the bits of the run that never stopped, with every integrator.
+// Criterion: a run that goes on from a copied store and memory has the bits of the run that never stopped, with every
+// integrator.
 TEST(SameBits, WhenARunGoesOnFromItsMemory) {
   const Threads one(1);
   const Tank tank;

@@ -1,6 +1,4 @@
 #pragma once
-#include <omp.h>
-
 #include <cmath>
 #include <utility>
 
@@ -10,24 +8,13 @@
 
 namespace undine::test {
 
-/// As many threads as asked for while it lives: more than one only slows small runs down.
-class Threads {
- public:
-  explicit Threads(int n) : before_(omp_get_max_threads()) { omp_set_num_threads(n); }
-  ~Threads() { omp_set_num_threads(before_); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
- private:
-  int before_;
-};
-
 /// A liquid of Tait's law with a speed of sound of 20 m/s, and all pair arithmetic in double.
 template <int N>
 WeaklyCompressibleOptions<N> liquid(double support) {
   WeaklyCompressibleOptions<N> options;
   options.support.uniform = support;
-  options.materials = {{.name = "test", .rho_0 = 1000, .mu = 0, .eos = materials::TaitSoundSpeed{.rho_0 = 1000, .c_0 = 20, .gamma = 7}}};
+  options.materials = {
+      {.name = "test", .rho_0 = 1000, .mu = 0, .eos = materials::TaitSoundSpeed{.rho_0 = 1000, .c_0 = 20, .gamma = 7}}};
   options.backend = {BackendKind::threads, PairPrecision::double_precision};
   return options;
 }
@@ -66,7 +53,8 @@ struct PeriodicSquare {
     Random random(seed);
     std::vector<Vec<2>> at;
     for (int i = 0; i < side; ++i)
-      for (int j = 0; j < side; ++j) at.push_back(Vec<2>{{(i + 0.5) * spacing, (j + 0.5) * spacing}} + random.vector<2>(0.2 * spacing));
+      for (int j = 0; j < side; ++j)
+        at.push_back(Vec<2>{{(i + 0.5) * spacing, (j + 0.5) * spacing}} + random.vector<2>(0.2 * spacing));
     auto store = empty_store<2>();
     add_particles(store, Group::fluid, at, spacing, support);
     for (auto& u : store.get<field::v>()) u = random.vector<2>(1);

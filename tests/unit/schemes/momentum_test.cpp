@@ -20,7 +20,8 @@ double momentum_drift(WeaklyCompressible<2>& flow, int steps, auto integrator) {
     return sum;
   };
   double size = 0;
-  for (std::size_t i = 0; i < flow.store().size(); ++i) size += flow.store().get<m>()[i] * norm(flow.store().get<v>()[i]);
+  for (std::size_t i = 0; i < flow.store().size(); ++i)
+    size += flow.store().get<m>()[i] * norm(flow.store().get<v>()[i]);
   const Vec<2> before = momentum();
   test::run_steps<decltype(integrator)>(flow, steps, dt);
   return norm(momentum() - before) / size;
@@ -41,7 +42,8 @@ double momentum_drift_of_square(DensityForm density, std::optional<OneOf<terms::
   return drift;
 }
 
-// Criterion: total momentum to 1e-12 of sum m |v| over 50 steps, for every integrator, density form and laminar viscosity that conserves it.
+// Criterion: total momentum to 1e-12 of sum m |v| over 50 steps, for every integrator, density form and laminar
+// viscosity that conserves it.
 TEST(Momentum, IsConservedInAPeriodicBox) {
   const test::Threads one(1);
   integrators::Integrators::for_each([]<class Integrator>(Integrator) {
@@ -54,8 +56,8 @@ TEST(Momentum, IsConservedInAPeriodicBox) {
   using integrators::Leapfrog;
   EXPECT_LE((momentum_drift_of_square<terms::PressureSum, Leapfrog>(DensityForm::evolved)), 1e-12);
   EXPECT_LE((momentum_drift_of_square<terms::PressureMueller, Leapfrog>(DensityForm::evolved)), 1e-12);
-  for (const auto& viscosity :
-       {test::chosen<terms::ViscosityForms, terms::ViscosityMorris>(), test::chosen<terms::ViscosityForms, terms::ViscosityMueller>()})
+  for (const auto& viscosity : {test::chosen<terms::ViscosityForms, terms::ViscosityMorris>(),
+                                test::chosen<terms::ViscosityForms, terms::ViscosityMueller>()})
     EXPECT_LE((momentum_drift_of_square<terms::PressureSymmetric, Leapfrog>(DensityForm::evolved, viscosity)), 1e-12);
 }
 
@@ -104,8 +106,9 @@ double spin_drift() {
   return std::abs(spin().first - before) / size;
 }
 
-// Criterion: angular momentum to 1e-12 over 100 steps for the symmetric forms with leapfrog and predictor_corrector (euler moves x and v
-// by rates of the same time, which adds dt^2 v cross acc a step); at least 1e-6 for the unsymmetric forms.
+// Criterion: angular momentum to 1e-12 over 100 steps for the symmetric forms with leapfrog and predictor_corrector
+// (euler moves x and v by rates of the same time, which adds dt^2 v cross acc a step); at least 1e-6 for the
+// unsymmetric forms.
 TEST(Momentum, AngularMomentumOfAFreeDiscIsConserved) {
   const test::Threads one(1);
   using integrators::Leapfrog;
@@ -116,8 +119,8 @@ TEST(Momentum, AngularMomentumOfAFreeDiscIsConserved) {
   const double euler = spin_drift<terms::PressureSymmetric, integrators::Euler>();
   const double plain = spin_drift<terms::PressurePlain, Leapfrog>();
   const double by_difference = spin_drift<terms::PressureDifference, Leapfrog>();
-  std::printf("    symmetric %.2g, sum %.2g, predictor_corrector %.2g, euler %.2g; plain %.2g, difference %.2g\n", symmetric, sum,
-              corrected, euler, plain, by_difference);
+  std::printf("    symmetric %.2g, sum %.2g, predictor_corrector %.2g, euler %.2g; plain %.2g, difference %.2g\n",
+              symmetric, sum, corrected, euler, plain, by_difference);
   EXPECT_LE(symmetric, 1e-12);
   EXPECT_LE(sum, 1e-12);
   EXPECT_LE(corrected, 1e-12);

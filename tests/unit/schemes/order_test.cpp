@@ -5,7 +5,8 @@
 
 #include "unit/schemes/flow.hpp"
 
-// Order of the integrators in time, at fixed resolution, on an oscillator made of particles: a standing sound wave on a periodic line.
+// Order of the integrators in time, at fixed resolution, on an oscillator made of particles: a standing sound wave on a
+// periodic line.
 
 namespace undine {
 namespace {

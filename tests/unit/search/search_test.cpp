@@ -1,7 +1,6 @@
 #include "undine/search/search.hpp"
 
 #include <gtest/gtest.h>
-
 #include <rapidcheck/gtest.h>
 
 #include "undine/core/error.hpp"
@@ -65,13 +64,13 @@ std::vector<std::vector<Vec<N>>> point_sets(Random& random) {
     return x;
   };
   filled(1, [&](int) { return random.vector<N>(1); });
-  filled(300, [&](int) { return random.vector<N>(1); });                                                // spread out
-  filled(200, [&](int k) { return along(k % 4 * 0.5 - 0.8) + random.vector<N>(0.05); });                // clustered
-  filled(100, [&](int k) { return along(k / 50.0 - 1); });                                              // on a slanted line
-  filled(60, [&](int k) { return Vec<N>{{k / 30.0 - 1}}; });                                            // along an axis
-  filled(40, [&](int) { return along(0.3); });                                                          // on one point
-  filled(50, [&](int k) { return k == 17 ? along(1e6) : random.vector<N>(1); });                        // one far outlier
-  filled(250, [&](int) {                                                                                // on cell faces
+  filled(300, [&](int) { return random.vector<N>(1); });                                  // spread out
+  filled(200, [&](int k) { return along(k % 4 * 0.5 - 0.8) + random.vector<N>(0.05); });  // clustered
+  filled(100, [&](int k) { return along(k / 50.0 - 1); });                                // on a slanted line
+  filled(60, [&](int k) { return Vec<N>{{k / 30.0 - 1}}; });                              // along an axis
+  filled(40, [&](int) { return along(0.3); });                                            // on one point
+  filled(50, [&](int k) { return k == 17 ? along(1e6) : random.vector<N>(1); });          // one far outlier
+  filled(250, [&](int) {                                                                  // on cell faces
     Vec<N> x;
     for (int k = 0; k < N; ++k) x[k] = 0.25 * std::floor(random.between(-4, 5));
     return x;
@@ -163,7 +162,8 @@ void near_the_faces() {
       Vec<N> x;
       for (int k = 0; k < N; ++k) {
         x[k] = low + radius * static_cast<double>(random.bits() % 10);
-        for (auto steps = random.bits() % 3; steps > 0; --steps) x[k] = std::nextafter(x[k], random.bits() & 1 ? 9.0 : -9.0);
+        for (auto steps = random.bits() % 3; steps > 0; --steps)
+          x[k] = std::nextafter(x[k], random.bits() & 1 ? 9.0 : -9.0);
         x[k] = std::max(x[k], low);
       }
       points.push_back(x);

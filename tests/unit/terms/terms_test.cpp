@@ -1,5 +1,3 @@
-#include "undine/terms/catalogue.hpp"
-
 #include <cmath>
 #include <set>
 
@@ -7,6 +5,7 @@
 
 #include "undine/engine/update.hpp"
 #include "undine/schemes/particle_rules.hpp"
+#include "undine/terms/catalogue.hpp"
 #include "unit/engine/crowd.hpp"
 #include "unit/engine/every_term.hpp"
 
@@ -25,7 +24,8 @@ using test::Random;
 template <int N>
 class Bench {
  public:
-  explicit Bench(const Crowd<N>& made, KernelChoice kernel = {}) : crowd_(made), neighbours_(made.domain, {}), kernel_(kernel) {
+  explicit Bench(const Crowd<N>& made, KernelChoice kernel = {})
+      : crowd_(made), neighbours_(made.domain, {}), kernel_(kernel) {
     neighbours_.build(crowd_.store, crowd_.support);
   }
 
@@ -39,8 +39,9 @@ class Bench {
   template <class Term>
   void run(const Term& term = {}) {
     test::use_only<Term>(sweep_, term);
-    sweep_.run({crowd_.store, neighbours_, crowd_.domain, Support{.uniform = crowd_.support}, {kernel_, kernel_, kernel_}},
-               {BackendKind::threads, PairPrecision::double_precision});
+    sweep_.run(
+        {crowd_.store, neighbours_, crowd_.domain, Support{.uniform = crowd_.support}, {kernel_, kernel_, kernel_}},
+        {BackendKind::threads, PairPrecision::double_precision});
   }
   /// Calls f(i) for each particle further than the support from the sides of the box.
   template <class F>
@@ -49,7 +50,8 @@ class Bench {
       bool inside = true;
       for (int k = 0; k < N; ++k) {
         const double at = get<x>()[i][k];
-        inside = inside && at > crowd_.domain.low[k] + 1.1 * crowd_.support && at < crowd_.domain.high[k] - 1.1 * crowd_.support;
+        inside = inside && at > crowd_.domain.low[k] + 1.1 * crowd_.support &&
+                 at < crowd_.domain.high[k] - 1.1 * crowd_.support;
       }
       if (inside) f(i);
     }
@@ -67,6 +69,7 @@ class Bench {
   }
 
  private:
+  test::Threads one_{1};
   Crowd<N> crowd_;
   Neighbours<N> neighbours_;
   KernelChoice kernel_;
@@ -82,7 +85,12 @@ void in_each_dimension(F f) {
 
 template <int N>
 Crowd<N> fluid_crowd(double disorder = 0.3, double support = 2.6) {
-  return make_crowd<N>({.side = N == 1 ? 50 : N == 2 ? 16 : 10, .disorder = disorder, .wall_layers = 0, .support = support});
+  return make_crowd<N>({.side = N == 1   ? 50
+                                : N == 2 ? 16
+                                         : 10,
+                        .disorder = disorder,
+                        .wall_layers = 0,
+                        .support = support});
 }
 
 /// A term with parameters at which it does something in every test.
@@ -94,7 +102,8 @@ Term example() {
   return term;
 }
 
-// ---- Invariance ------------------------------------------------------------------------------------------------------
+// ---- Invariance
+// ------------------------------------------------------------------------------------------------------
 
 /// Results of a term by particle id, one array of numbers per field.
 template <int N, class Term>
@@ -186,7 +195,8 @@ TEST(Terms, TurnWithTheirVectors) {
   });
 }
 
-// ---- Single pairs ----------------------------------------------------------------------------------------------------
+// ---- Single pairs
+// ----------------------------------------------------------------------------------------------------
 
 template <class Term>
 struct TwoParticles {
@@ -248,11 +258,13 @@ double imbalance() {
   return worst;
 }
 
-// Criterion: m_a acc_ab = -m_b acc_ba to 1e-14 for all forms but those that say they break it, where the imbalance exceeds 1 %.
+// Criterion: m_a acc_ab = -m_b acc_ba to 1e-14 for all forms but those that say they break it, where the imbalance
+// exceeds 1 %.
 TEST(Terms, ForcesOfAPairAreOppositeButForTheUnsymmetricForms) {
   int pressures = 0;
   for_each_force([&]<class Term>(Term) {
-    constexpr bool unsymmetric = std::is_same_v<Term, terms::PressurePlain> || std::is_same_v<Term, terms::PressureDifference> ||
+    constexpr bool unsymmetric = std::is_same_v<Term, terms::PressurePlain> ||
+                                 std::is_same_v<Term, terms::PressureDifference> ||
                                  std::is_same_v<Term, terms::ViscosityLaminar>;
     const double seen = imbalance<Term>();
     if (unsymmetric) {
@@ -266,7 +278,8 @@ TEST(Terms, ForcesOfAPairAreOppositeButForTheUnsymmetricForms) {
   EXPECT_GT(pressures, 0);
 }
 
-// Criterion: |dx x force| <= 1e-14 |dx| |force| for pressure forms and artificial viscosities; laminar ones act along the velocity.
+// Criterion: |dx x force| <= 1e-14 |dx| |force| for pressure forms and artificial viscosities; laminar ones act along
+// the velocity.
 TEST(Terms, PressureAndArtificialViscosityActAlongTheLineOfThePair) {
   const auto central = []<class Term>(Term) {
     Random random(2);
@@ -288,14 +301,16 @@ TEST(Terms, SymmetricCentralForcesHaveNoTorque) {
     bench.run(example<Term>());
     const auto at = bench.get<x>();
     const auto a = bench.get<acc>();
-    const auto [sum, size] = bench.total([&](std::size_t i) { return bench.get<m>()[i] * (at[i][0] * a[i][1] - at[i][1] * a[i][0]); });
+    const auto [sum, size] =
+        bench.total([&](std::size_t i) { return bench.get<m>()[i] * (at[i][0] * a[i][1] - at[i][1] * a[i][0]); });
     EXPECT_LE(std::abs(sum), 1e-13 * size) << Term::info.name;
   };
   terms::PressureForms::for_each(torque);
   terms::ArtificialViscosities::for_each(torque);
 }
 
-// ---- Energy ----------------------------------------------------------------------------------------------------------
+// ---- Energy
+// ----------------------------------------------------------------------------------------------------------
 
 /// Largest sum m v.acc relative to its parts, over random velocities; negative where the term always dissipates.
 template <int N, class Term>
@@ -347,7 +362,8 @@ double unmatched_work() {
   return std::abs(sum) / size;
 }
 
-// Criterion: pressure work and compression cancel to 1e-13 for the two matching pairs of forms, and for no other (1e-4 and more).
+// Criterion: pressure work and compression cancel to 1e-13 for the two matching pairs of forms, and for no other (1e-4
+// and more).
 TEST(Terms, MatchingPressureAndDensityFormsConserveEnergy) {
   in_each_dimension([]<int N>() {
     terms::PressureForms::for_each([]<class Pressure>(Pressure) {
@@ -365,7 +381,8 @@ TEST(Terms, MatchingPressureAndDensityFormsConserveEnergy) {
   });
 }
 
-// ---- Density ---------------------------------------------------------------------------------------------------------
+// ---- Density
+// ---------------------------------------------------------------------------------------------------------
 
 // Criterion: drho/dt = -N k rho within 3 % in the bulk of a lattice that expands by v = k x.
 TEST(Terms, ContinuityFollowsAUniformExpansion) {
@@ -407,8 +424,9 @@ TEST(Terms, SummationGivesTheDensityOfALattice) {
   });
 }
 
-// Criterion: the volume-weighted sum of the rates, sum (m_a/rho_a) drho_a, is zero to 1e-13: every diffusive flux of a pair, V_a V_b
-// h (c_a + c_b) (difference) F, changes sign with the pair, whatever the masses, densities and sound speeds.
+// Criterion: the volume-weighted sum of the rates, sum (m_a/rho_a) drho_a, is zero to 1e-13: every diffusive flux of a
+// pair, V_a V_b h (c_a + c_b) (difference) F, changes sign with the pair, whatever the masses, densities and sound
+// speeds.
 TEST(Terms, DiffusionConservesTheVolumeWeightedSum) {
   in_each_dimension([]<int N>() {
     Bench<N> bench(fluid_crowd<N>());
@@ -476,10 +494,12 @@ TEST(Terms, AntuonoLeavesLinearDensitiesAlone) {
   });
 }
 
-// ---- Viscosity and gradients -----------------------------------------------------------------------------------------
+// ---- Viscosity and gradients
+// -----------------------------------------------------------------------------------------
 
-// Criterion: acc = mu/rho lap v for v_x = 1/2 |x|^2 on a lattice with h = 2 dx, in the bulk, within 3 %. With `wendland_c4`: `mueller`
-// takes second derivatives, and those of the 1-D `wendland_c2` end in a kink that puts it 15 % off.
+// Criterion: acc = mu/rho lap v for v_x = 1/2 |x|^2 on a lattice with h = 2 dx, in the bulk, within 3 %. With
+// `wendland_c4`: `mueller` takes second derivatives, and those of the 1-D `wendland_c2` end in a kink that puts it 15 %
+// off.
 TEST(Terms, LaminarViscositiesApproachTheLaplacian) {
   in_each_dimension([]<int N>() {
     Bench<N> bench(fluid_crowd<N>(0, 4), KernelChoice::of<WendlandC4>());
@@ -502,7 +522,8 @@ TEST(Terms, LaminarViscositiesApproachTheLaplacian) {
   });
 }
 
-// Criterion: the velocity gradient of v_i = sum_j A_ij x_j is A_ij at [j][i], within 3 % of the largest in the bulk of a lattice.
+// Criterion: the velocity gradient of v_i = sum_j A_ij x_j is A_ij at [j][i], within 3 % of the largest in the bulk of
+// a lattice.
 TEST(Terms, VelocityGradientIsTheGradient) {
   Bench<3> bench(fluid_crowd<3>(0));
   const auto slope = [](int i, int j) { return 1.0 + 2 * i - j; };
