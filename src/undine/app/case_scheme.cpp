@@ -45,7 +45,7 @@ void read_smoothing(const Table& scheme, double spacing, double preset_ratio, We
   const Table table = scheme.table("smoothing");
   auto& support = options.support;
   // A kernel whose natural kappa is 1 leaves h = H: viscosity and step limits then see the whole support.
-  support.kappa = table.positive("kappa", unit::one, options.kernels[0].natural_kappa());
+  support.kappa = table.in_range("kappa", unit::one, {0.5, 10}, options.kernels[0].natural_kappa());
   if (table.has("support") && table.has("h_over_spacing"))
     table.fail("h_over_spacing", "both 'support' and 'h_over_spacing' are given", "they say the same thing: H = kappa h", "keep one of them");
   if (table.has("h_over_spacing")) {
@@ -121,7 +121,10 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   choice.wall_particles = options.wall_density != walls::WallDensity::none;
   options.wall_friction = wall.flag("friction", true);
   choice.restitution = wall.in_range("restitution", unit::one, {0, 1}, 1.0);
-  choice.wall_layers = static_cast<int>(wall.integer("layers", Preset::wall_layers));
+  const std::int64_t layers = wall.integer("layers", Preset::wall_layers);
+  if (layers < 0 || layers > 100)
+    wall.fail("layers", fmt::format("a wall cannot have {} layers", layers), {}, "give 1 to 100, or 0 for as many as the support needs");
+  choice.wall_layers = static_cast<int>(layers);
   if (options.wall_density == walls::WallDensity::modified) {
     choice.wall_reference = wall.choice("reference", {"auto", "rho_0", "given"}, std::string(Preset::wall_reference));
     if (choice.wall_reference == "given") choice.wall_reference_density = wall.positive("reference_density", unit::density);

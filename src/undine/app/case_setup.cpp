@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
+#include <set>
 
+#include "undine/app/case_particles.hpp"
 #include "undine/app/case_shapes.hpp"
 #include "undine/core/error.hpp"
 #include "undine/geometry/fill.hpp"
 #include "undine/geometry/points.hpp"
-#include "undine/io/snapshot.hpp"
 #include "undine/search/cell_grid.hpp"
 
 namespace undine {
@@ -39,6 +41,8 @@ struct Body {
   Table table;
 };
 
+constexpr std::int64_t most_layers = 100;  ///< of a wall
+
 template <int N>
 class Reader {
  public:
@@ -58,50 +62,53 @@ class Reader {
     read_materials(fluids);
     fill_store();
     read_body_force();
-    set_wall_references();
+    start_walls();
     connect_reflector();
     return std::move(setup_);
   }
 
  private:
-  std::vector<Vec3> read_particle_list(const Table& table, Body& body) {
-    const auto file = table.path("particles");
-    if (file.extension() == ".csv") {
-      auto list = load_points_csv(file.string(), N);
-      for (std::size_t k = 0; k < list.names.size(); ++k) body.given[list.names[k]] = list.columns[k];
-      return list.points;
-    }
-    const OwnedFrame frame = read_snapshot(file);
-    const OwnedColumn* x = frame.find(frame.position);
-    std::vector<Vec3> points(frame.particles);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (int k = 0; k < std::min(N, x->components); ++k) points[i][k] = x->data[i * x->components + k];
-    for (const auto& column : frame.columns) {
-      if (column.components == 1) body.given[column.name] = column.data;
-      if (column.name != "v") continue;
-      for (int k = 0; k < std::min(N, column.components); ++k)
-        for (std::size_t i = 0; i < points.size(); ++i)
-          body.given[std::string("v") + "xyz"[k]].push_back(column.data[i * column.components + k]);
-    }
-    return points;
+  /// Marks keys that this choice does not use, so that Undine does not call them unknown.
+  static void unused(const Table& table, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) (void)table.has(key);
+  }
+
+  void take_list(Body& body) {
+    auto list = read_particle_list(body.table, N);
+    body.points = std::move(list.points);
+    body.given = std::move(list.given);
+  }
+
+  /// A limit on the lattice points that filling a shape has to try. All become particles in a box, but few in a thin mesh.
+  void check_size(const Table& table, const Shape& shape, double margin) const {
+    const Bounds box = shape.bounds();
+    for (int k = 0; k < N; ++k)
+      if (!std::isfinite(box.lo[k]) || !std::isfinite(box.hi[k])) return;  // filling refuses it
+    const double share = shape.as_box() && margin == 0 ? 1 : 0.1;
+    check_room(table, share * lattice_points(box, setup_.spacing, margin, N), setup_.spacing);
   }
 
   void read_fluid_points(const Table& table) {
     Body body{table.text("name", fmt::format("fluid{}", bodies_.size())), Group::fluid, static_cast<int>(bodies_.size()), {}, {}, table};
     if (table.has("particles")) {
-      body.points = read_particle_list(table, body);
+      take_list(body);
+      unused(table, {"shape", "lattice", "anchor", "jitter", "seed"});
     } else {
       const Lattice lattice = table.choice("lattice", {"cubic", "hexagonal"}, "cubic") == "cubic" ? Lattice::cubic : Lattice::hexagonal;
       LatticeSpec spec{setup_.spacing, N, lattice, {}};
       if (table.has("anchor")) spec.anchor = read_point(table, "anchor", N);
-      body.points = with_place(table, [&] { return fill_lattice(*read_shape(table.table("shape"), N), spec); });
+      const ShapePtr shape = read_shape(table.table("shape"), N);
+      check_size(table, *shape, 0);
+      body.points = with_place(table, [&] { return fill_lattice(*shape, spec); });
       const double jitter = table.in_range("jitter", unit::one, {0, 0.5}, 0.0) * setup_.spacing;
       if (jitter > 0) shake(body.points, jitter, static_cast<std::uint64_t>(table.integer("seed", 1)));
+      unused(table, {"seed"});
     }
     if (body.points.empty())
       throw InputError({.what = fmt::format("fluid '{}' has no particles", body.name), .where = table.where(),
                         .why = fmt::format("no lattice point of spacing {:.4g} m lies in its shape", setup_.spacing),
                         .fix = "make the shape larger or the spacing smaller"});
+    check_room(table, static_cast<double>(body.points.size()), setup_.spacing);
     bodies_.push_back(std::move(body));
   }
 
@@ -134,7 +141,8 @@ class Reader {
     Body body{table.text("name", fmt::format("wall{}", bodies_.size())), Group::wall, 0, {}, {}, table};
     const Table shape_table = table.table("shape");
     const Side fluid_side = table.choice("fluid", {"inside", "outside"}, "inside") == "inside" ? Side::inside : Side::outside;
-    const FaceSet open = parse_faces(table.choices("open", {"x-", "x+", "y-", "y+", "z-", "z+"}, {}));
+    const std::vector<std::string> faces{"x-", "x+", "y-", "y+", "z-", "z+"};
+    const FaceSet open = parse_faces(table.choices("open", {faces.begin(), faces.begin() + 2 * N}, {}));
     const bool has_list = table.has("particles");
     const bool reflects = setup_.choice.reflects && table.flag("reflects", true);
     ShapePtr shape;
@@ -148,8 +156,9 @@ class Reader {
       }
     }
     if (shape && fluid_side == Side::inside) container_.include(shape->bounds());
+    unused(table, {"reflects", "sheet", "layers", "thin"});
     if (has_list) {
-      body.points = read_particle_list(table, body);
+      take_list(body);
     } else if (setup_.choice.wall_particles) {
       body.points = wall_points(table, *shape, fluid_side, open);
     }
@@ -165,20 +174,27 @@ class Reader {
       return fill_face_sheet(*box, {setup_.spacing, N, open});
     }
     const int needed = layers_needed();
-    const int layers = static_cast<int>(table.integer("layers", choice.wall_layers > 0 ? choice.wall_layers : needed));
+    const std::int64_t asked = table.integer("layers", choice.wall_layers > 0 ? choice.wall_layers : needed);
+    if (asked > most_layers)
+      table.fail("layers", fmt::format("a wall of {} layers is thicker than any support", asked), fmt::format("{} layers span it", needed),
+                 fmt::format("set layers = {}, or leave it out", needed));
+    const int layers = static_cast<int>(std::max<std::int64_t>(asked, 0));
     if (layers < 1 || (layers < needed && !table.flag("thin", choice.wall_layers > 0)))
       table.fail("layers", fmt::format("a wall of {} layer{} is thinner than the support", layers, layers == 1 ? "" : "s"),
                  fmt::format("the support radius {:.4g} m spans {} spacings of {:.4g} m; fluid would feel what is behind the wall",
                              setup_.options.support.uniform, needed, setup_.spacing),
                  fmt::format("set layers = {}, leave it out, or say thin = true if this is meant", needed));
+    check_size(table, shape, layers * setup_.spacing);
     return with_place(table, [&] {
       return fill_shell(shape, {setup_.spacing, layers, fluid_side == Side::inside ? Side::outside : Side::inside, N, 0.5, open});
     });
   }
 
   void check_bodies() {
+    std::set<std::string> names;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      if (!setup_.bodies.emplace(bodies_[b].name, static_cast<int>(b)).second)
+      if (bodies_[b].group == Group::wall) setup_.bodies.emplace(bodies_[b].name, static_cast<int>(b));
+      if (!names.insert(bodies_[b].name).second)
         bodies_[b].table.fail("name", fmt::format("two bodies are named '{}'", bodies_[b].name), {}, "give each its own name");
       const double closest = 0.5 * setup_.spacing;
       complain_of(check_overlap(bodies_[b].points, closest), bodies_[b], bodies_[b]);
@@ -190,6 +206,11 @@ class Reader {
   void complain_of(const std::optional<Overlap>& overlap, const Body& a, const Body& b) const {
     if (!overlap) return;
     const Vec3 p = a.points[overlap->a];
+    if (&a == &b)
+      throw InputError({.what = fmt::format("two particles of '{}' nearly coincide", a.name), .where = a.table.where(),
+                        .why = fmt::format("they are {:.3g} m apart near ({:.4g}, {:.4g}, {:.4g}) m, spacing {:.4g} m", overlap->distance, p[0], p[1], p[2],
+                                           setup_.spacing),
+                        .fix = "remove one of them from the list, or lessen 'jitter'"});
     throw InputError({.what = fmt::format("'{}' and '{}' overlap", a.name, b.name), .where = b.table.where(),
                       .why = fmt::format("particles {:.3g} m apart near ({:.4g}, {:.4g}, {:.4g}) m, spacing {:.4g} m", overlap->distance, p[0], p[1], p[2],
                                          setup_.spacing),
@@ -203,7 +224,7 @@ class Reader {
       for (const auto& p : body.points) all.include(p);
     if (!container_.empty()) all.include(container_);
     const Table table = root_.table("domain");
-    double extent = 0;
+    double extent = setup_.options.support.uniform;  // some room even around a single point
     for (int k = 0; k < N; ++k)
       if (std::isfinite(all.hi[k] - all.lo[k])) extent = std::max(extent, all.hi[k] - all.lo[k]);
     std::vector<double> low, high;
@@ -259,6 +280,11 @@ class Reader {
     if (g_sq > 0) setup_.potential_origin = -(lowest / g_sq) * g;
   }
 
+  [[noreturn]] static void not_finite(const Table& table, std::string_view key, std::string_view name, const Vec3& p) {
+    table.fail(key, fmt::format("'{}' is not a finite number at ({:.4g}, {:.4g}, {:.4g}) m", name, p[0], p[1], p[2]), "a particle begins there",
+               "look for a division by 0 or the root or logarithm of a negative number; if(condition, a, b) takes either value");
+  }
+
   Vec<N> velocity(const Body& body, std::size_t i) {
     Vec<N> v;
     if (body.given.contains("vx")) {
@@ -272,7 +298,10 @@ class Reader {
     auto& formulas = velocities_[body.name];
     if (formulas.empty()) formulas = body.table.expressions("velocity", N, std::vector<Expression>(N));
     const auto& p = body.points[i];
-    for (int k = 0; k < N; ++k) v[k] = formulas[k](p[0], p[1], p[2], 0);
+    for (int k = 0; k < N; ++k) {
+      v[k] = formulas[k](p[0], p[1], p[2], 0);
+      if (!std::isfinite(v[k])) not_finite(body.table, "velocity", fmt::format("velocity[{}]", k), p);
+    }
     return v;
   }
 
@@ -300,6 +329,7 @@ class Reader {
             return column == body.given.end() ? otherwise : column->second[i];
           };
           const double p = pressure(body.points[i]);
+          if (!std::isfinite(p)) not_finite(body.table, "pressure", "pressure", body.points[i]);
           const double density = material.density(p);
           if (!std::isfinite(density) || density <= 0)
             body.table.fail("pressure", fmt::format("no density belongs to a pressure of {:.4g} Pa", p), "the equation of state cannot be that low",
@@ -331,6 +361,12 @@ class Reader {
   void read_body_force() {
     if (!root_.has("body_force")) return;
     const auto formulas = root_.expressions("body_force", N);
+    const IndexRange fluid = setup_.store.range(Group::fluid);
+    for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
+      const Vec3 p = widen<N>(setup_.store.template get<field::x>()[i]);
+      for (int k = 0; k < N; ++k)
+        if (!std::isfinite(formulas[k](p[0], p[1], p[2], 0))) not_finite(root_, "body_force", fmt::format("body_force[{}]", k), p);
+    }
     setup_.options.body_force = [formulas](const Vec<N>& x, double t) {
       const Vec3 p = widen<N>(x);
       Vec<N> a;
@@ -339,27 +375,75 @@ class Reader {
     };
   }
 
-  /// rho_wref of modified-density walls. "auto": what the wall particles themselves sum to, so that fluid at rest on them
-  /// completes the sum to rho_0.
-  void set_wall_references() {
-    if (setup_.options.wall_density != walls::WallDensity::modified) return;
+  /// Walls that touch fluid begin with the pressure of the fluid at rest there: without it a tank at rest would ring.
+  void start_walls() {
+    const double surface = hydrostatic_surface();
     auto& store = setup_.store;
-    const IndexRange r = store.range(Group::wall);
-    const auto x = store.template get<field::x>().subspan(r.begin, r.size());
-    const double H = setup_.options.support.uniform;
-    CellGrid<N> grid;
-    if (setup_.choice.wall_reference == "auto") grid.build(x, H, setup_.domain);
+    const IndexRange walls = store.range(Group::wall), fluid = store.range(Group::fluid);
+    const auto x = store.template get<field::x>();
+    const double H = setup_.options.support.uniform, strength = norm(setup_.options.gravity);
+    CellGrid<N> near_fluid, near_wall;
+    near_fluid.build(x.subspan(fluid.begin, fluid.size()), H, setup_.domain);
+    near_wall.build(x.subspan(walls.begin, walls.size()), H, setup_.domain);
+    const double lattice = sum_over_lattice();
     std::vector<std::uint32_t> found;
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      double& reference = store.template get<field::rho_wall>()[r.begin + i];
-      reference = setup_.choice.wall_reference == "given" ? setup_.choice.wall_reference_density : store.template get<field::rho_0>()[r.begin + i];
-      if (setup_.choice.wall_reference != "auto") continue;
-      reference = 0;
-      grid.find(x[i], H, found);
-      for (const auto j : found)
-        reference += store.template get<field::m>()[r.begin + j] *
-                     setup_.options.kernels[0].template w<N>(norm(setup_.domain.nearest_image(x[i] - x[j])) / H) / std::pow(H, N);
+    for (std::size_t i = walls.begin; i < walls.end; ++i) {
+      const auto& material = setup_.options.materials[store.materials()[i]];
+      near_fluid.find(x[i], H, found);
+      double rest = material.rho_0;
+      if (!found.empty() && std::isfinite(surface))
+        rest = material.density(material.rho_0 * std::max(0.0, strength * surface + dot(setup_.options.gravity, x[i])));
+      store.template get<field::rho>()[i] = rest;
+      near_wall.find(x[i], H, found);
+      store.template get<field::rho_wall>()[i] = wall_reference(material.rho_0, rest, wall_sum(i, found), lattice);
     }
+  }
+
+  /// rho_wref of a modified-density wall particle. "auto": what fluid at rest on the wall lacks to `rest`, which is the wall
+  /// particles' own sum, less what a whole lattice sums to beyond rho_0.
+  double wall_reference(double rho_0, double rest, double own_sum, double lattice) const {
+    if (setup_.choice.wall_reference == "given") return setup_.choice.wall_reference_density;
+    return setup_.choice.wall_reference == "auto" ? own_sum + rest - rho_0 * lattice : rho_0;
+  }
+
+  double kernel(const Vec<N>& d) const {
+    const double H = setup_.options.support.uniform;
+    return setup_.options.kernels[0].template w<N>(norm(d) / H) / std::pow(H, N);
+  }
+
+  double wall_sum(std::size_t i, const std::vector<std::uint32_t>& neighbours) const {
+    const std::size_t first = setup_.store.range(Group::wall).begin;
+    const auto x = setup_.store.template get<field::x>();
+    double sum = 0;
+    for (const auto j : neighbours) sum += setup_.store.template get<field::m>()[first + j] * kernel(setup_.domain.nearest_image(x[i] - x[first + j]));
+    return sum;
+  }
+
+  /// sum of V W over an endless lattice of the case's spacing: 1 but for the kernel's discretisation error.
+  double sum_over_lattice() const {
+    const double dp = setup_.spacing;
+    const int reach = static_cast<int>(std::ceil(setup_.options.support.uniform / dp));
+    double sum = 0;
+    Vec<N, int> cell;
+    for (int k = 0; k < N; ++k) cell[k] = -reach;
+    for (;;) {
+      Vec<N> d;
+      for (int k = 0; k < N; ++k) d[k] = dp * cell[k];
+      sum += std::pow(dp, N) * kernel(d);
+      int axis = 0;
+      for (; axis < N; ++axis) {
+        if (++cell[axis] <= reach) break;
+        cell[axis] = -reach;
+      }
+      if (axis == N) return sum;
+    }
+  }
+
+  /// Height of the first hydrostatic fluid's surface, m; not a number when there is none.
+  double hydrostatic_surface() const {
+    for (const auto& body : bodies_)
+      if (body.group == Group::fluid && body.table.has("surface")) return body.table.quantity("surface", unit::length);
+    return std::nan("");
   }
 
   void connect_reflector() {

@@ -20,7 +20,7 @@ struct CaseSetup {
   Store<N> store;
   WeaklyCompressibleOptions<N> options;
   SchemeChoice choice;
-  std::map<std::string, int> bodies;  ///< name of each fluid and wall
+  std::map<std::string, int> bodies;  ///< name and number of each wall of particles
   std::vector<int> body_of_id;        ///< body of each particle, by its id
   Vec<N> potential_origin{};          ///< where E_pot is zero
   double expected_speed = 0;          ///< m/s

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "undine/app/case_particles.hpp"
 #include "undine/core/error.hpp"
 #include "undine/geometry/mesh.hpp"
 
@@ -43,7 +44,7 @@ ShapePtr polygon(const Table& t, int) {
   return make_polygon(spec);
 }
 ShapePtr mesh(const Table& t, int) {
-  return make_mesh(load_stl(t.path("file").string(), t.positive("scale", unit::one, 1.0)));
+  return make_mesh(load_stl(existing_file(t, "file").string(), t.positive("scale", unit::one, 1.0)));
 }
 ShapePtr union_of(const Table& t, int dimensions) { return make_union(read_parts(t, "parts", dimensions)); }
 ShapePtr intersection(const Table& t, int dimensions) { return make_intersection(read_parts(t, "parts", dimensions)); }

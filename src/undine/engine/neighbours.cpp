@@ -108,10 +108,13 @@ template <int N>
 bool Neighbours<N>::stale(const Store<N>& store, double support) const {
   const auto x = store.template get<field::x>();
   const auto x_old = store.template get<x_list>();
-  double moved_sq = 0;
-#pragma omp parallel for reduction(max : moved_sq) schedule(static)
-  for (std::size_t i = 0; i < x.size(); ++i) moved_sq = std::max(moved_sq, norm_sq(domain_.nearest_image(x[i] - x_old[i])));
-  return list_radius_ <= 0 || support + 2 * std::sqrt(moved_sq) > list_radius_;
+  const double allowed = 0.5 * (list_radius_ - support);
+  if (list_radius_ <= 0 || allowed < 0) return true;
+  bool moved = false;
+#pragma omp parallel for reduction(|| : moved) schedule(static)
+  for (std::size_t i = 0; i < x.size(); ++i)  // written so that a position that is not a number counts as moved
+    moved = moved || !(norm_sq(domain_.nearest_image(x[i] - x_old[i])) <= sq(allowed));
+  return moved;
 }
 
 template <int N>

@@ -64,7 +64,7 @@ class PairSweep {
     });
     for (const Group group : all_groups)
       if (group == target_ || takes_from(group))
-        check_finite(context, reads(), context.store.range(group), "reads a value that nothing wrote");
+        check_finite(context, reads() | Fields<field::x, field::h>::set(), context.store.range(group), "reads a value that nothing wrote");
     run_serial(context);
     check_finite(context, adds(), targets, "gave a value that is not finite");
   }

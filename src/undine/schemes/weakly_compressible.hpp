@@ -87,6 +87,8 @@ class WeaklyCompressible {
   void refresh_lists();
   void check_particles() const;
   double largest_support() const;
+  /// A summed density leaves nothing for diffusion to change.
+  bool diffuses() const { return options_.diffusion && options_.density == DensityForm::evolved; }
   void recall(const std::vector<double>& numbers);
 
   Store<N> store_;
@@ -95,6 +97,7 @@ class WeaklyCompressible {
   Neighbours<N> neighbours_;
   Plan plan_;
   double support_now_ = 0;
+  double body_power_ = 0;  ///< of the imposed force at the last evaluation, W
   double time_ = 0, time_start_ = 0;
   Vec<N> potential_origin_{};
   Energies::Ledger ledger_, ledger_start_;

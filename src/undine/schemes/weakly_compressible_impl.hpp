@@ -55,7 +55,7 @@ void WeaklyCompressible<N>::configure() {
   force_.template use<1>() = {continuity, true, {true, walls}, {}};
   force_.template use<2>() = {options_.viscosity.value_or(OneOf<terms::ViscosityForms>{}), options_.viscosity.has_value(), {true, friction}, {}};
   force_.template use<3>() = {options_.artificial.value_or(terms::ViscosityMonaghan{}), options_.artificial.has_value(), {true, friction}, {}};
-  force_.template use<4>() = {options_.diffusion.value_or(OneOf<terms::DiffusionForms>{}), options_.diffusion.has_value(), {true, false}, {}};
+  force_.template use<4>() = {options_.diffusion.value_or(OneOf<terms::DiffusionForms>{}), diffuses(), {true, false}, {}};
   force_.template use<5>() = {options_.xsph.value_or(terms::Xsph{}), options_.xsph.has_value(), {true, false}, {}};
   force_.template use<6>() = {{}, true, {true, walls}, {}};
   auto& fourtakas = force_.template use<4>().term.template get<terms::DiffusionFourtakas>();
@@ -76,12 +76,10 @@ void WeaklyCompressible<N>::configure() {
 template <int N>
 void WeaklyCompressible<N>::make_plan() {
   const bool walls = options_.wall_density != WallDensity::none;
-  const bool renormalised =
-      options_.diffusion && options_.diffusion->index() == terms::DiffusionForms::index<terms::DiffusionAntuono>();
+  const bool renormalised = diffuses() && options_.diffusion->index() == terms::DiffusionForms::index<terms::DiffusionAntuono>();
 
   add_density_stages();
   add_update("equation of state", Group::fluid, rules::ApplyEquationOfState{options_.materials});
-  if (options_.rho_law) add_update("smoothing length", Group::fluid, rules::FollowDensity<N>{options_.support.uniform});
   if (walls) add_wall_stages();
   if (renormalised) {
     add_sweep(gradient_, false);
@@ -90,12 +88,17 @@ void WeaklyCompressible<N>::make_plan() {
   add_sweep(force_, walls);
   if (norm_sq(options_.gravity) > 0 || options_.body_force) {
     const Resources changed(Group::fluid, Fields<acc>::set());
-    plan_.add({"body force", Resources(changed).add(Group::fluid, Fields<x>::set()), changed, [this] {
+    plan_.add({"body force", Resources(changed).add(Group::fluid, Fields<x, v, m>::set()), changed, [this] {
                  auto a = store_.template get<acc>();
                  const auto at = store_.template get<x>();
-                 for_each_particle(store_, Group::fluid, [&](std::size_t i) {
+                 const auto u = store_.template get<v>();
+                 const auto mass = store_.template get<m>();
+                 body_power_ = total_over(store_, Group::fluid, [&](std::size_t i) {
                    a[i] += options_.gravity;
-                   if (options_.body_force) a[i] += options_.body_force(at[i], time_);
+                   if (!options_.body_force) return 0.0;
+                   const Vec<N> imposed = options_.body_force(at[i], time_);
+                   a[i] += imposed;
+                   return mass[i] * dot(imposed, u[i]);
                  });
                }});
   }
@@ -120,8 +123,10 @@ void WeaklyCompressible<N>::add_density_stages() {
     return;
   }
   // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
-  Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
-  plan_.add({"normalised density", Resources(Group::fluid, Fields<x, m, rho>::set()), touched, [this] {
+  const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
+  Resources reads(Group::fluid, Fields<x, h, m, rho>::set());
+  if (options_.wall_density != WallDensity::none) reads.add(Group::wall, Fields<x, h, m, rho>::set());
+  plan_.add({"normalised density", reads, touched, [this] {
                run(summation_);
                run(shepard_);
                update(store_, Group::fluid, rules::TakeNormalisedDensity{});
@@ -193,7 +198,7 @@ void WeaklyCompressible<N>::check_particles() const {
   const auto at = store_.template get<x>();
   const IndexRange fluid = store_.range(Group::fluid);
   for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
-    if (domain_.contains(at[i])) continue;
+    if (domain_.contains(at[i]) && std::isfinite(norm_sq(at[i]))) continue;
     std::string place;
     for (int k = 0; k < N; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", at[i][k]);
     throw RunError({.what = fmt::format("particle {} left the domain at t = {:.6g} s: x = ({}) m", store_.ids()[i], time_, place),
@@ -204,6 +209,8 @@ void WeaklyCompressible<N>::check_particles() const {
 
 template <int N>
 void WeaklyCompressible<N>::evaluate() {
+  // Before the lists, which must reach as far as the largest support.
+  if (options_.rho_law) update(store_, Group::fluid, rules::FollowDensity<N>{options_.support.uniform});
   refresh_lists();
   plan_.run();
   const auto a = store_.template get<acc>();
@@ -322,14 +329,7 @@ void WeaklyCompressible<N>::book(double dt) {
   ledger_.diffusion -= dt * diffusion[fluid];
   ledger_.exchange -= dt * (pressure[fluid] + compression[fluid]);
   ledger_.walls -= dt * (pressure[wall] + compression[wall] + viscous[wall] + artificial[wall]);
-  if (options_.body_force) {
-    const auto at = store_.template get<x>();
-    const auto u = store_.template get<v>();
-    const auto mass = store_.template get<m>();
-    ledger_.body -= dt * total_over(store_, Group::fluid, [&](std::size_t i) {
-      return mass[i] * dot(options_.body_force(at[i], time_), u[i]);
-    });
-  }
+  ledger_.body -= dt * body_power_;
 }
 
 template <int N>
@@ -378,7 +378,7 @@ void WeaklyCompressible<N>::evaluate_wall_forces() {
 
 template <int N>
 std::vector<double> WeaklyCompressible<N>::memory() const {
-  std::vector<double> numbers{time_, neighbours_.support()};
+  std::vector<double> numbers{time_, neighbours_.support(), body_power_};
   const auto& l = ledger_;
   numbers.insert(numbers.end(), {l.viscous, l.artificial, l.diffusion, l.exchange, l.walls, l.xsph, l.body});
   std::apply([&](const auto&... use) { (numbers.insert(numbers.end(), use.power.begin(), use.power.end()), ...); }, force_.uses());
@@ -390,6 +390,7 @@ void WeaklyCompressible<N>::recall(const std::vector<double>& numbers) {
   auto next = numbers.begin();
   time_ = *next++;
   neighbours_.rebuild_from_list_positions(store_, *next++);
+  body_power_ = *next++;
   auto& l = ledger_;
   for (double* account : {&l.viscous, &l.artificial, &l.diffusion, &l.exchange, &l.walls, &l.xsph, &l.body}) *account = *next++;
   std::apply(

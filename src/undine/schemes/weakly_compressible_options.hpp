@@ -19,7 +19,7 @@ namespace undine {
 enum class DensityForm {
   evolved,    ///< integrated from a continuity form
   summation,  ///< summed over the neighbours
-  normalised  ///< summed, divided by the Shepard sum over the same fluid
+  normalised  ///< summed, divided by the Shepard sum over the same neighbours
 };
 
 /// Where a particle ends that set out from `from` to `to` with velocity v, past elastic walls.
