@@ -4,9 +4,10 @@
     run_cli_tests.py UNDINE [NAME...]   runs all of bad_input/*.toml, or the named ones
     run_cli_tests.py --self-test        runs made-up inputs through made-up programs, to check these checks
 
-Each test is a file bad_input/NAME.toml. Its leading comment lines say what is expected; every line but `expect` is optional:
+Each test is a file bad_input/NAME.toml. Its leading comment lines say what is expected; every line is optional but for one:
 
-    # expect: WORDS      standard error must contain WORDS exactly; give as many lines as wanted, at least one
+    # expect: WORDS      standard error must contain WORDS exactly; give as many lines as wanted
+    # output: WORDS      standard output must contain WORDS exactly, such as a warning; at least one `expect` or `output`
     # exit: 2            the exit code; 2 (the input is at fault) unless said
     # line: 12           standard error must contain NAME.toml:12:
     # column: 5          standard error must contain NAME.toml:12:5:
@@ -44,7 +45,7 @@ class Expectation:
     """What the leading comments of a test file ask for."""
 
     def __init__(self, text):
-        self.expect, self.args = [], []
+        self.expect, self.output, self.args = [], [], []
         self.command = self.line = self.column = None
         self.exit = 2
         seen = set()
@@ -54,12 +55,12 @@ class Expectation:
             match = KEY.match(comment)
             if match:
                 key, value = match.groups()
-                if key in seen and key != "expect":
+                if key in seen and key not in ("expect", "output"):
                     raise BadTest(f"key given twice: {key}")
                 seen.add(key)
                 self.read(key, value)
-        if not self.expect:
-            raise BadTest("no '# expect: WORDS' line at its top")
+        if not self.expect and not self.output:
+            raise BadTest("no '# expect: WORDS' or '# output: WORDS' line at its top")
         if self.column is not None and self.line is None:
             raise BadTest("'# column:' needs '# line:'")
         if self.command and self.args:
@@ -68,8 +69,8 @@ class Expectation:
     def read(self, key, value):
         if not value:
             raise BadTest(f"no value for '# {key}:'")
-        if key == "expect":
-            self.expect.append(value)
+        if key in ("expect", "output"):
+            getattr(self, key).append(value)
         elif key in ("exit", "line", "column"):
             if not value.isdecimal():
                 raise BadTest(f"'# {key}:' needs a whole number, not {value!r}")
@@ -77,7 +78,7 @@ class Expectation:
         elif key in ("args", "command"):
             setattr(self, key, shlex.split(value))
         else:
-            raise BadTest(f"unknown key '# {key}:' (keys: expect, exit, line, column, args, command)")
+            raise BadTest(f"unknown key '# {key}:' (keys: expect, output, exit, line, column, args, command)")
 
     def words(self, file):
         words = self.command or ["check", "{file}"] + self.args
@@ -112,6 +113,8 @@ def run(program, expectation, folder, file):
     if seconds >= SECONDS_ALLOWED:
         wrong.append(f"took {seconds:.1f} s; less than {SECONDS_ALLOWED} s are allowed")
     wrong += [f"not in standard error: {words}" for words in expectation.wanted(file) if words not in message]
+    printed = done.stdout.decode(errors="replace")
+    wrong += [f"not in standard output: {words}" for words in expectation.output if words not in printed]
     count = len(message.splitlines())
     if count > LINES_ALLOWED:
         wrong.append(f"{count} lines in standard error; at most {LINES_ALLOWED} are allowed")
@@ -163,6 +166,8 @@ EXAMPLES = [
      'printf "[%s] " "$@" >&2; exit 2', True),
     ("good_command", "# expect: [run] [good_command.toml]\n# exit: 0\n# command: run {file}\n",
      'printf "[%s] " "$@" >&2', True),
+    ("good_output", "# output: warning\n# output: slow\n# exit: 0\n", "echo warning: too slow", True),
+    ("other_output", "# output: warning\n# exit: 0\n", "echo warning >&2", False),
     ("good_root", "# expect: LICENSE\n# command: list {root}\n", 'ls "$2" >&2; exit 2', True),
     ("other_words", "# expect: unknown value\n", GOOD_PROGRAM, False),
     ("other_words_second", HEADER + "# expect: bar\n", GOOD_PROGRAM, False),

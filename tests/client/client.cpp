@@ -11,7 +11,8 @@ int main() {
   constexpr double dp = 0.01, rho_0 = 1000, g = 9.81, dt = 1e-4;
 
   Store<2> store;
-  store.allocate(Fields<field::x, field::v, field::rho, field::h, field::m, field::rho_0, field::mu, field::rho_wall, field::x_list>::set());
+  store.allocate(Fields<field::x, field::v, field::rho, field::h, field::m, field::rho_0, field::mu, field::rho_wall,
+                        field::x_list>::set());
   store.append(Group::fluid, nx * ny, 0);
   for (int i = 0; i < nx * ny; ++i) {
     store.get<field::x>()[i] = {{(i % nx + 0.5) * dp, (i / nx + 0.5) * dp}};
@@ -30,6 +31,7 @@ int main() {
 
   const Energies e = flow.energies();
   const double fallen = 0.5 * nx * ny * rho_0 * dp * dp * g * g * flow.time() * flow.time();  // m v^2/2 after free fall
-  std::printf("t = %g s, kinetic %.10g J (free fall: %.10g J), total %.10g J\n", flow.time(), e.kinetic, fallen, e.total());
+  std::printf("t = %g s, kinetic %.10g J (free fall: %.10g J), total %.10g J\n", flow.time(), e.kinetic, fallen,
+              e.total());
   return std::abs(e.kinetic - fallen) < 1e-6 * fallen ? 0 : 1;
 }

@@ -79,13 +79,17 @@ class Reader {
     body.given = std::move(list.given);
   }
 
-  /// A limit on the lattice points that filling a shape has to try. All become particles in a box, but few in a thin mesh.
-  void check_size(const Table& table, const Shape& shape, double margin) const {
+  /// Refuses a shape whose filling would not end. `layers` of a wall lie on one side of its surface; 0: the shape is filled.
+  void check_size(const Table& table, const Shape& shape, int layers = 0, Side side = Side::outside) const {
     const Bounds box = shape.bounds();
     for (int k = 0; k < N; ++k)
-      if (!std::isfinite(box.lo[k]) || !std::isfinite(box.hi[k])) return;  // filling refuses it
-    const double share = shape.as_box() && margin == 0 ? 1 : 0.1;
-    check_room(table, share * lattice_points(box, setup_.spacing, margin, N), setup_.spacing);
+      if (!std::isfinite(box.lo[k]) || !std::isfinite(box.hi[k])) return;  // filling says so
+    const double depth = layers * setup_.spacing;
+    const auto points = [&](double margin) { return lattice_points(box, setup_.spacing, margin, N); };
+    const double tried = points(side == Side::outside ? depth : 0);
+    const double spared = layers == 0 ? 0 : points(side == Side::outside ? 0 : -depth);
+    // Other shapes may take up little of their bounds; what they do take is checked once it is known.
+    check_room(table, shape.as_box() ? tried - spared : 0.1 * tried, setup_.spacing);
   }
 
   void read_fluid_points(const Table& table) {
@@ -98,7 +102,7 @@ class Reader {
       LatticeSpec spec{setup_.spacing, N, lattice, {}};
       if (table.has("anchor")) spec.anchor = read_point(table, "anchor", N);
       const ShapePtr shape = read_shape(table.table("shape"), N);
-      check_size(table, *shape, 0);
+      check_size(table, *shape);
       body.points = with_place(table, [&] { return fill_lattice(*shape, spec); });
       const double jitter = table.in_range("jitter", unit::one, {0, 0.5}, 0.0) * setup_.spacing;
       if (jitter > 0) shake(body.points, jitter, static_cast<std::uint64_t>(table.integer("seed", 1)));
@@ -184,10 +188,9 @@ class Reader {
                  fmt::format("the support radius {:.4g} m spans {} spacings of {:.4g} m; fluid would feel what is behind the wall",
                              setup_.options.support.uniform, needed, setup_.spacing),
                  fmt::format("set layers = {}, leave it out, or say thin = true if this is meant", needed));
-    check_size(table, shape, layers * setup_.spacing);
-    return with_place(table, [&] {
-      return fill_shell(shape, {setup_.spacing, layers, fluid_side == Side::inside ? Side::outside : Side::inside, N, 0.5, open});
-    });
+    const Side wall_side = fluid_side == Side::inside ? Side::outside : Side::inside;
+    check_size(table, shape, layers, wall_side);
+    return with_place(table, [&] { return fill_shell(shape, {setup_.spacing, layers, wall_side, N, 0.5, open}); });
   }
 
   void check_bodies() {
