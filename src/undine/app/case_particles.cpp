@@ -103,8 +103,9 @@ void check_room(const Table& table, double count, double spacing) {
 }
 
 double lattice_points(const Bounds& box, double spacing, double margin, int dimensions) {
+  const double least = margin < 0 ? 0 : 1;  // a flat box holds one layer, what is inside its skin may be nothing
   double count = 1;
-  for (int k = 0; k < dimensions; ++k) count *= std::max(1.0, (box.hi[k] - box.lo[k] + 2 * margin) / spacing);
+  for (int k = 0; k < dimensions; ++k) count *= std::max(least, (box.hi[k] - box.lo[k] + 2 * margin) / spacing);
   return count;
 }
 

@@ -24,7 +24,8 @@ std::filesystem::path existing_file(const Table& table, std::string_view key);
 /// Throws InputError at the table if `count` particles do not fit into this machine's memory.
 void check_room(const Table& table, double count, double spacing);
 
-/// How many lattice points of that spacing a box holds along its first `dimensions` axes; `margin` (m) is added on each side.
+/// How many lattice points of that spacing a box holds along its first `dimensions` axes; `margin` (m) is added on
+/// each side, or taken off where negative.
 double lattice_points(const Bounds& box, double spacing, double margin, int dimensions);
 
 }  // namespace undine

@@ -39,6 +39,7 @@ struct Body {
   std::vector<Vec3> points;
   std::map<std::string, std::vector<double>> given;  ///< columns of a particle list: vx, vy, vz, rho, m
   Table table;
+  bool may_coincide = true;  ///< points that a lattice laid are apart from each other
 };
 
 constexpr std::int64_t most_layers = 100;  ///< of a wall
@@ -57,8 +58,9 @@ class Reader {
       throw InputError({.what = "the case has no fluid", .where = root_.where(), .why = "nothing would move", .fix = "add a [[fluid]] with a shape"});
     for (const Table& t : fluids) read_fluid_points(t);
     for (const Table& t : root_.tables("wall")) read_wall(t);
-    check_bodies();
+    check_names();
     place_domain();
+    check_overlaps();
     read_materials(fluids);
     fill_store();
     read_body_force();
@@ -104,8 +106,12 @@ class Reader {
       const ShapePtr shape = read_shape(table.table("shape"), N);
       check_size(table, *shape);
       body.points = with_place(table, [&] { return fill_lattice(*shape, spec); });
+      body.may_coincide = false;
       const double jitter = table.in_range("jitter", unit::one, {0, 0.5}, 0.0) * setup_.spacing;
-      if (jitter > 0) shake(body.points, jitter, static_cast<std::uint64_t>(table.integer("seed", 1)));
+      if (jitter > 0) {
+        shake(body.points, jitter, static_cast<std::uint64_t>(table.integer("seed", 1)));
+        body.may_coincide = true;
+      }
       unused(table, {"seed"});
     }
     if (body.points.empty())
@@ -193,17 +199,44 @@ class Reader {
     return with_place(table, [&] { return fill_shell(shape, {setup_.spacing, layers, wall_side, N, 0.5, open}); });
   }
 
-  void check_bodies() {
+  void check_names() {
     std::set<std::string> names;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if (bodies_[b].group == Group::wall) setup_.bodies.emplace(bodies_[b].name, static_cast<int>(b));
       if (!names.insert(bodies_[b].name).second)
         bodies_[b].table.fail("name", fmt::format("two bodies are named '{}'", bodies_[b].name), {}, "give each its own name");
-      const double closest = 0.5 * setup_.spacing;
-      complain_of(check_overlap(bodies_[b].points, closest), bodies_[b], bodies_[b]);
-      for (std::size_t a = 0; a < b; ++a)
-        if (bodies_[a].group == Group::fluid) complain_of(check_overlap(bodies_[a].points, bodies_[b].points, closest), bodies_[a], bodies_[b]);
     }
+  }
+
+  /// Every particle once within each period, and none on another.
+  void check_overlaps() const {
+    const bool periodic = setup_.domain.any_periodic();
+    std::vector<std::vector<Vec3>> wrapped;
+    for (const Body& body : bodies_) {
+      check_period(body);
+      if (!periodic) continue;
+      wrapped.push_back(body.points);
+      for (Vec3& p : wrapped.back()) p = widen<N>(setup_.domain.wrapped(narrow<N>(p)));
+    }
+    const auto points = [&](std::size_t b) -> const std::vector<Vec3>& { return periodic ? wrapped[b] : bodies_[b].points; };
+    const double closest = 0.5 * setup_.spacing;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if (bodies_[b].may_coincide) complain_of(check_overlap(points(b), closest), bodies_[b], bodies_[b]);
+      for (std::size_t a = 0; a < b; ++a)
+        if (bodies_[a].group == Group::fluid) complain_of(check_overlap(points(a), points(b), closest), bodies_[a], bodies_[b]);
+    }
+  }
+
+  void check_period(const Body& body) const {
+    const auto& domain = setup_.domain;
+    Bounds box;
+    for (const Vec3& p : body.points) box.include(p);
+    for (int k = 0; k < N; ++k)
+      if (domain.periodic[k] && box.hi[k] - box.lo[k] > domain.length(k))
+        throw InputError({.what = fmt::format("'{}' is longer than the period along {}", body.name, "xyz"[k]), .where = body.table.where(),
+                          .why = fmt::format("its particles reach from {:.4g} to {:.4g} m, the period is {:.4g} m: it would lie on its own image", box.lo[k],
+                                             box.hi[k], domain.length(k)),
+                          .fix = "shorten it to the period, name its two ends there in 'open', or widen [domain]"});
   }
 
   void complain_of(const std::optional<Overlap>& overlap, const Body& a, const Body& b) const {

@@ -44,7 +44,7 @@ class Pack {
   friend Mask operator<=(const Pack& a, const Pack& b) { return a.native_ <= b.native_; }
   friend Mask operator>=(const Pack& a, const Pack& b) { return a.native_ >= b.native_; }
 
-  friend Pack select(const Mask& mask, const Pack& yes, const Pack& no) {
+  [[gnu::always_inline]] friend Pack select(const Mask& mask, const Pack& yes, const Pack& no) {
     Native result = no.native_;
     where(mask, result) = yes.native_;
     return result;

@@ -10,36 +10,40 @@ namespace {
 
 using field::x_list;
 
-/// Targets handled by one task; small enough to balance splashes, large enough to cost nothing.
-constexpr std::size_t targets_per_task = 512;
+}  // namespace
 
-/// Fills a list by asking `find(target, found)` for each of n targets; indices are shifted by `offset` to store indices.
 template <class Find>
-void fill_list(NeighbourList& list, std::size_t n, std::size_t offset, Find&& find) {
-  const std::size_t tasks = (n + targets_per_task - 1) / targets_per_task;
-  std::vector<std::vector<std::uint32_t>> parts(tasks);
-  list.starts.assign(n + 1, 0);
+void NeighbourList::fill(std::size_t targets, std::size_t offset, Find&& find) {
+  parts_.resize((targets + targets_per_part - 1) / targets_per_part);
 #pragma omp parallel
   {
     std::vector<std::uint32_t> found;
 #pragma omp for schedule(dynamic, 1)
-    for (std::size_t task = 0; task < tasks; ++task) {
-      for (std::size_t t = task * targets_per_task; t < std::min(n, (task + 1) * targets_per_task); ++t) {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      Part& part = parts_[p];
+      part.starts.assign(1, 0);
+      part.indices.clear();
+      for (std::size_t t = p * targets_per_part; t < std::min(targets, (p + 1) * targets_per_part); ++t) {
         find(t, found);
-        list.starts[t + 1] = found.size();
-        parts[task].insert(parts[task].end(), found.begin(), found.end());
+        for (auto& j : found) j += static_cast<std::uint32_t>(offset);
+        part.indices.insert(part.indices.end(), found.begin(), found.end());
+        part.starts.push_back(static_cast<std::uint32_t>(part.indices.size()));
       }
     }
   }
-  std::partial_sum(list.starts.begin(), list.starts.end(), list.starts.begin());
-  list.indices.resize(list.starts[n]);
-#pragma omp parallel for schedule(static)
-  for (std::size_t task = 0; task < tasks; ++task)
-    std::ranges::transform(parts[task], list.indices.begin() + list.starts[task * targets_per_task],
-                           [&](std::uint32_t j) { return j + static_cast<std::uint32_t>(offset); });
 }
 
-}  // namespace
+std::size_t NeighbourList::pairs() const {
+  std::size_t total = 0;
+  for (const Part& part : parts_) total += part.indices.size();
+  return total;
+}
+
+std::size_t NeighbourList::bytes() const {
+  std::size_t total = 0;
+  for (const Part& part : parts_) total += (part.starts.capacity() + part.indices.capacity()) * sizeof(std::uint32_t);
+  return total;
+}
 
 template <int N>
 Neighbours<N>::Neighbours(const Domain<N>& domain, Options options) : domain_(domain), options_(std::move(options)) {
@@ -97,10 +101,9 @@ void Neighbours<N>::build_lists(Store<N>& store) {
     for (const Group source : all_groups) {
       const IndexRange targets = store.range(target), sources = store.range(source);
       if (target == Group::wall && source == Group::wall) continue;  // walls do not act on walls
-      fill_list(lists_[static_cast<int>(target)][static_cast<int>(source)], targets.size(), sources.begin,
-                [&](std::size_t t, auto& found) {
-                  searches_[static_cast<int>(source)]->find(x[targets.begin + t], list_radius_, found);
-                });
+      lists_[static_cast<int>(target)][static_cast<int>(source)].fill(targets.size(), sources.begin, [&](std::size_t t, auto& found) {
+        searches_[static_cast<int>(source)]->find(x[targets.begin + t], list_radius_, found);
+      });
     }
 }
 
@@ -140,7 +143,7 @@ std::size_t Neighbours<N>::bytes() const {
   for (const auto& search : searches_) total += search ? search->bytes() : 0;
   for (const auto& row : lists_)
     for (const auto& list : row)
-      total += list.starts.capacity() * sizeof(std::size_t) + list.indices.capacity() * sizeof(std::uint32_t);
+      total += list.bytes();
   return total;
 }
 

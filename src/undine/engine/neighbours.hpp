@@ -10,13 +10,29 @@
 namespace undine {
 
 /// For each target of a group, the indices (in the store) of the particles of a source group within the list radius, ascending.
-struct NeighbourList {
-  std::vector<std::size_t> starts;
-  std::vector<std::uint32_t> indices;
+class NeighbourList {
+ public:
+  /// Targets that share one array; small enough to balance splashes, large enough to cost nothing.
+  static constexpr std::size_t targets_per_part = 512;
+
+  /// Fills the list in parallel: `find(target, found)` gives the sources of one target, to which `offset` is added. Arrays keep their
+  /// memory from one build to the next.
+  template <class Find>
+  void fill(std::size_t targets, std::size_t offset, Find&& find);
 
   std::span<const std::uint32_t> of(std::size_t target) const {
-    return {indices.data() + starts[target], starts[target + 1] - starts[target]};
+    const Part& part = parts_[target / targets_per_part];
+    const std::size_t t = target % targets_per_part;
+    return {part.indices.data() + part.starts[t], part.starts[t + 1] - part.starts[t]};
   }
+  std::size_t pairs() const;
+  std::size_t bytes() const;
+
+ private:
+  struct Part {
+    std::vector<std::uint32_t> starts, indices;
+  };
+  std::vector<Part> parts_;
 };
 
 /// Neighbour lists of all groups, with a skin so that they hold while particles move less than half of it. Building them sorts
@@ -48,7 +64,7 @@ class Neighbours {
   double support() const { return support_; }
   double list_radius() const { return list_radius_; }
   std::size_t bytes() const;
-  std::size_t pair_count(Group target, Group source) const { return list(target, source).indices.size(); }
+  std::size_t pair_count(Group target, Group source) const { return list(target, source).pairs(); }
 
  private:
   void sort_by_space(Store<N>& store);

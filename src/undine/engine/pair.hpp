@@ -8,30 +8,31 @@ namespace undine {
 enum class KernelRole { density, pressure, viscosity };
 inline constexpr int kernel_roles = 3;
 
-/// What a term sees of the pair (a, b) itself.
-template <int N, class V, class Mask>
-struct Pair {
+/// What is the same for every term of a pair (a, b).
+template <int N, class V>
+struct PairBase {
   static constexpr int dim = N;
 
-  Vec<N, V> dx;      ///< x_a - x_b
-  V r;               ///< |x_a - x_b|
+  Vec<N, V> dx;                   ///< x_a - x_b
+  V r;                            ///< |x_a - x_b|
   V r_sq;
-  V support;         ///< support radius H of the pair
-  V h;               ///< smoothing length h = H / kappa of the pair
+  V support;                      ///< support radius H of the pair
+  V h;                            ///< smoothing length h = H / kappa of the pair
+  decltype(V() < V()) inside;     ///< r < H; only maxima need it, sums vanish by themselves
+};
+
+/// What a term sees of the pair: the above, and its own kernel.
+template <int N, class V>
+struct Pair : PairBase<N, V> {
   V w;               ///< W(r, H)
   Vec<N, V> grad_w;  ///< gradient of W with respect to x_a
-  Mask inside;       ///< r < H; only maxima need it, sums vanish by themselves
-
-  /// The Laplacian of W, evaluated where a term asks for it.
-  V laplacian_w() const { return kernel->template laplacian<N>(r / support) * scale_laplacian(); }
-
   const KernelChoice* kernel;
 
- private:
-  V scale_laplacian() const {
-    V s = support * support;
-    for (int k = 0; k < N; ++k) s = s * support;
-    return V(1) / s;
+  /// The Laplacian of W, evaluated where a term asks for it.
+  V laplacian_w() const {
+    V scale = sq(this->support);
+    for (int k = 0; k < N; ++k) scale = scale * this->support;
+    return kernel->template laplacian<N>(this->r / this->support) / scale;
   }
 };
 

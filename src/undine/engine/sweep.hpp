@@ -179,7 +179,6 @@ class SweepLoop {
 
  private:
   using Real = scalar_of<V>;
-  using Mask = decltype(V() < V());
   static constexpr int lanes = lanes_of<V>;
   static constexpr std::size_t targets_per_block = 128;
   static constexpr std::size_t use_count = sizeof...(Uses);
@@ -246,8 +245,7 @@ class SweepLoop {
       if (!any_acts_on(source)) continue;
       const auto list = context_.neighbours.of(group, target, source, store, scratch);
       if (list.empty()) continue;
-      AllSums sums{};
-      for (std::size_t at = 0; at < list.size(); at += lanes) one_block(source, x_a, record[N], row_a, list, at, sums);
+      const AllSums sums = sum_over(source, x_a, record[N], row_a, list);
       collect(source, sums, total, booking, book, power, std::index_sequence_for<Uses...>{});
     }
     Adds::for_each([&]<class F>(F) { store.template get<F>()[a] = F::of(total); });
@@ -257,8 +255,15 @@ class SweepLoop {
     return std::apply([&](const auto&... use) { return (use.acts_on(source) || ...); }, uses_);
   }
 
+  /// Sums of all uses over one list. Everything is inlined here, so that sums and constants stay in registers.
+  [[gnu::flatten]] AllSums sum_over(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a, std::span<const std::uint32_t> list) {
+    AllSums sums{};
+    for (std::size_t at = 0; at < list.size(); at += lanes) one_block(source, x_a, h_a, row_a, list, at, sums);
+    return sums;
+  }
+
   /// `lanes` neighbours at once. Lanes past the end of the list repeat its last entry at distance 2 H, where every kernel is zero.
-  [[gnu::flatten]] void one_block(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a, std::span<const std::uint32_t> list,
+  void one_block(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a, std::span<const std::uint32_t> list,
                  std::size_t at, AllSums& sums) {
     const Real* from[lanes];
     const int valid = static_cast<int>(std::min<std::size_t>(lanes, list.size() - at));
@@ -276,18 +281,15 @@ class SweepLoop {
     RowOfReads row_b;
     load_row(row_b, [&](int k) { return numbers[k]; });
 
-    Pair<N, V, Mask> ab;
-    ab.dx = code_.template difference<V>(x_a, x_b);
+    const Vec<N, V> dx = code_.template difference<V>(x_a, x_b);
     const auto& support = context_.support;
-    ab.support = support.per_particle ? pair_support<V>(support.mean, h_a, numbers[N]) : V(static_cast<Real>(support.uniform));
-    ab.r_sq = norm_sq(ab.dx);
-    ab.h = ab.support * V(static_cast<Real>(1.0 / support.kappa));
-    if (valid < lanes) ab.r_sq = pad(ab.r_sq, valid, ab.support);
-    ab.r = sqrt(ab.r_sq);
-    ab.inside = ab.r_sq < ab.support * ab.support;
-
-    const V inv_h = support.per_particle ? V(1) / ab.support : V(static_cast<Real>(1.0 / support.uniform));
-    evaluate(source, row_a, row_b, ab, inv_h, sums, std::index_sequence_for<Uses...>{});
+    const V H = support.per_particle ? pair_support<V>(support.mean, h_a, numbers[N]) : V(static_cast<Real>(support.uniform));
+    const V inv_h = support.per_particle ? V(1) / H : V(static_cast<Real>(1.0 / support.uniform));
+    V r_sq = norm_sq(dx);
+    if (valid < lanes) r_sq = pad(r_sq, valid, H);
+    const V r = sqrt(r_sq);
+    const PairBase<N, V> base{dx, r, r_sq, H, H * V(static_cast<Real>(1.0 / support.kappa)), r_sq < H * H};
+    evaluate(source, row_a, row_b, base, inv_h, sums, std::index_sequence_for<Uses...>{});
   }
 
   static V pad(const V& r_sq, int valid, const V& h) {
@@ -298,36 +300,38 @@ class SweepLoop {
     }
   }
 
-  template <std::size_t... I>
-  void evaluate(Group source, const TargetRow& a, const RowOfReads& b, Pair<N, V, Mask>& ab, const V& inv_h, AllSums& sums,
-                std::index_sequence<I...>) {
-    struct Values {
-      V w, grad;
-    };
-    const V R = ab.r * inv_h;
+  /// W and (dW/dr)/r of one kernel.
+  struct KernelValues {
+    V w, grad;
+  };
+  KernelValues kernel_values(int role, const V& R, const V& inv_h) const {
     V inv_h_n = inv_h;
     for (int k = 1; k < N; ++k) inv_h_n = inv_h_n * inv_h;
-    std::array<Values, kernel_roles> values;
+    return context_.kernels[role].visit([&]<class Kernel>(Kernel) {
+      return KernelValues{Kernel::template w<N>(R) * inv_h_n, Kernel::template slope_over_R<N>(R) * (inv_h_n * inv_h * inv_h)};
+    });
+  }
+
+  template <std::size_t... I>
+  void evaluate(Group source, const TargetRow& a, const RowOfReads& b, const PairBase<N, V>& base, const V& inv_h, AllSums& sums,
+                std::index_sequence<I...>) {
+    // Most schemes use one kernel for all roles: it is then evaluated once.
+    const V R = base.r * inv_h;
     const auto& kernels = context_.kernels;
-    for (int role = 0; role < kernel_roles; ++role) {
-      if (role > 0 && kernels[role].index() == kernels[0].index()) {
-        values[role] = values[0];
-      } else {
-        kernels[role].visit([&]<class Kernel>(Kernel) {
-          values[role] = {Kernel::template w<N>(R) * inv_h_n, Kernel::template slope_over_R<N>(R) * (inv_h_n * inv_h * inv_h)};
-        });
-      }
-    }
+    constexpr int first_role = std::min({static_cast<int>(Uses::role)...});
+    const KernelValues first = kernel_values(first_role, R, inv_h);
     const auto one = [&]<class U>(U& use, Sums<U, V>& sum) {
       if (!use.acts_on(source)) return;
       constexpr int role = static_cast<int>(U::role);
-      ab.w = values[role].w;
-      ab.grad_w = ab.dx * values[role].grad;
-      ab.kernel = &kernels[role];
+      KernelValues values = first;
+      if constexpr (role != first_role) {
+        if (kernels[role].index() != kernels[first_role].index()) values = kernel_values(role, R, inv_h);
+      }
+      const Pair<N, V> ab{base, values.w, base.dx * values.grad, &kernels[role]};
       const auto row = use.term(a, b, ab);
       U::Term::adds::for_each([&]<class F>(F) {
         if constexpr (F::info.join == Join::max) {
-          F::of(sum) = max(F::of(sum), select(ab.inside, V(F::of(row)), V(0)));
+          F::of(sum) = max(F::of(sum), select(base.inside, V(F::of(row)), V(0)));
         } else {
           F::of(sum) += F::of(row);
         }

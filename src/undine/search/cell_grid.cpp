@@ -107,18 +107,19 @@ void CellGrid<N>::find(const Vec<N>& x, double radius, std::vector<std::uint32_t
   std::size_t candidates = 0;
   for_each_run(low, high, [&](std::uint32_t begin, std::uint32_t end) { candidates += end - begin; });
   if (candidates == 0) return;
-  found.resize(candidates);
+  thread_local std::vector<std::uint32_t> near;  // keeps its size: growing it in each query would cost more than the query
+  if (near.size() < candidates) near.resize(candidates);
   std::size_t count = 0;
   const double radius_sq = sq(radius);
   const bool periodic = domain_.any_periodic();
   for_each_run(low, high, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t k = begin; k < end; ++k) {
       const Vec<N> d = x - sorted_points_[k];
-      found[count] = order_[k];  // kept only if the count moves on: no branch to mispredict
+      near[count] = order_[k];  // kept only if the count moves on: no branch to mispredict
       count += norm_sq(periodic ? domain_.nearest_image(d) : d) < radius_sq;
     }
   });
-  found.resize(count);
+  found.assign(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count));
   // Points stored in cell order come out ascending already, but for periodic images.
   if (!std::is_sorted(found.begin(), found.end())) std::sort(found.begin(), found.end());
 }

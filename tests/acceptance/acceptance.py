@@ -1,0 +1,134 @@
+#!/usr/bin/python3
+"""Acceptance checks of the program: acceptance.py CHECK UNDINE CASES. Each prints its criterion and its number; exit 1 on failure."""
+import csv
+import glob
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def undine(program, *words, expect=0):
+    done = subprocess.run([program, *words], capture_output=True, text=True, timeout=500, check=False)
+    if done.returncode != expect:
+        sys.exit(f"{' '.join(words)}: exit {done.returncode}, expected {expect}\n{done.stdout}\n{done.stderr}")
+    return done.stdout
+
+
+def read_csv(path):
+    with open(path, encoding="ascii") as lines:
+        rows = list(csv.reader(line for line in lines if not line.startswith("#")))
+    names = [name.split(" [")[0] for name in rows[0]]
+    return [dict(zip(names, map(float, row))) for row in rows[1:]]
+
+
+def newest_checkpoint(folder):
+    return sorted(glob.glob(os.path.join(folder, "*.checkpoint")))[-1]
+
+
+def require(holds, text):
+    print(("ok      " if holds else "FAILED  ") + text)
+    if not holds:
+        sys.exit(1)
+
+
+def smoke(program, case, folder):
+    """A shipped case is read, takes steps, and writes what it promises."""
+    undine(program, "run", case, "--out", folder, "--quiet", "--set", "time.end=1e-5 s")
+    record = json.load(open(os.path.join(folder, "run.json"), encoding="utf-8"))
+    require(record["status"] == "finished" and record["steps"] >= 1, f"{record['steps']} step(s) of {record['particles']} particles")
+    require(len(read_csv(os.path.join(folder, "energies.csv"))) >= 1, "energies are written")
+
+
+def dam(program, cases, folder, *words):
+    undine(program, "run", os.path.join(cases, "dam_break_2d.toml"), "--out", folder, "--quiet", *words)
+    return undine(program, "checksum", newest_checkpoint(folder)).strip()
+
+
+def same_bits_threads(program, cases, folder):
+    """The checksum over all fields is the same for 1, 2 and 4 threads, in mixed and in double, for two integrators."""
+    for precision in ("mixed", "double"):
+        for integrator in ("leapfrog", "predictor_corrector"):
+            sums = [dam(program, cases, os.path.join(folder, f"{precision}{integrator}{n}"), "--threads", str(n), "--set", "time.end=0.05 s",
+                        "--set", f"scheme.precision={precision}", "--set", f"time.integrator={integrator}") for n in (1, 2, 4)]
+            require(len(set(sums)) == 1, f"{precision}, {integrator}: 1, 2, 4 threads give {sums}")
+
+
+def same_bits_resume(program, cases, folder):
+    """A run resumed at half time ends with the checksum of the uninterrupted run, and with the same series."""
+    for integrator in ("leapfrog", "predictor_corrector", "euler"):
+        whole, halves = os.path.join(folder, "whole" + integrator), os.path.join(folder, "halves" + integrator)
+        words = ("--set", f"time.integrator={integrator}", "--set", "output.energies=2 ms")
+        once = dam(program, cases, whole, "--set", "time.end=0.08 s", *words)
+        dam(program, cases, halves, "--set", "time.end=0.04 s", *words)
+        twice = dam(program, cases, halves, "--set", "time.end=0.08 s", "--resume", "--threads", "1", *words)
+        require(once == twice, f"{integrator}: {once} uninterrupted, {twice} resumed at half time")
+        series = [open(os.path.join(f, "energies.csv"), encoding="ascii").read() for f in (whole, halves)]
+        require(series[0] == series[1], f"{integrator}: the energy series are the same")
+
+
+def still_water(program, cases, folder):
+    """RMS pressure error over the depth at most 5 % of the bottom pressure, nothing outside, audit residual at most 1 %."""
+    undine(program, "run", os.path.join(cases, "still_water_2d.toml"), "--out", folder, "--quiet", "--set", "scheme.wall.treatment=combined",
+           "--set", "time.end=1 s", "--set", "output.snapshots=0.1 s")
+    import h5py  # Debian's python3-h5py
+    import numpy
+    worst, outside = 0.0, 0
+    for name in sorted(glob.glob(os.path.join(folder, "*.vtkhdf"))):
+        data = h5py.File(name)["VTKHDF"]
+        fluid = data["PointData"]["group"][:] == 0
+        x, p = data["Points"][:][fluid], data["PointData"]["p"][:][fluid]
+        worst = max(worst, float(numpy.sqrt(numpy.mean((p - 1000 * 9.81 * (0.5 - x[:, 1])) ** 2))) / (1000 * 9.81 * 0.5))
+        outside += int(numpy.sum((x[:, 0] < 0) | (x[:, 0] > 0.5) | (x[:, 1] < 0)))
+    residual = max(abs(row["residual_relative"]) for row in read_csv(os.path.join(folder, "energies.csv")))
+    require(worst <= 0.05, f"largest RMS pressure error {worst:.4f} of the bottom pressure (limit 0.05)")
+    require(outside == 0, f"{outside} particles outside")
+    require(residual <= 0.01, f"largest audit residual {residual:.2e} of the initial potential energy (limit 1e-2)")
+
+
+def vtk_reads_back(program, cases, folder):
+    """VTK's own reader and h5py agree on every snapshot; the series names them all."""
+    undine(program, "run", os.path.join(cases, "dam_break_2d.toml"), "--out", folder, "--quiet", "--set", "time.end=0.02 s", "--set",
+           "output.snapshots=0.01 s")
+    entries = json.load(open(os.path.join(folder, "particles.vtkhdf.series"), encoding="utf-8"))["files"]
+    require(len(entries) == 3, f"{len(entries)} snapshots for 0, 0.01 and 0.02 s")
+    for entry in entries:
+        script = os.path.join(HERE, "..", "cli", "read_snapshot.py")
+        done = subprocess.run(["/usr/bin/python3", script, os.path.join(folder, entry["name"])], capture_output=True, text=True, check=False)
+        require(done.returncode == 0, f"{entry['name']}: {done.stdout.strip().splitlines()[:1]} {done.stderr.strip()}")
+
+
+def gauges_compare(program, cases, folder):
+    """Gauges write a row at each multiple of their interval, and a run ends with a table against reference data."""
+    reference = os.path.join(folder, "reference.csv")
+    with open(reference, "w", encoding="ascii") as out:
+        out.write("t [s],front [m]\n0,1.0\n0.02,1.0\n0.04,1.0\n")
+    case = os.path.join(folder, "case.toml")
+    with open(os.path.join(cases, "dam_break_2d.toml"), encoding="utf-8") as source, open(case, "w", encoding="utf-8") as out:
+        out.write(source.read() + '\n[[gauge]]\nname = "edge"\ntype = "front"\nevery = "10 ms"\nreference = { file = "reference.csv" }\n')
+    text = undine(program, "run", case, "--out", os.path.join(folder, "out"), "--set", "time.end=0.04 s")
+    require("rms" in text and "edge" in text, "the table against the reference is printed")
+    rows = read_csv(os.path.join(folder, "out", "gauges", "edge.csv"))
+    require(len(rows) == 5, f"{len(rows)} rows for 0, 10, 20, 30, 40 ms")
+
+
+def overwrite_needs_asking(program, cases, folder):
+    """A second run into the same folder is refused with exit code 2 and changes nothing; --overwrite replaces it."""
+    case, out = os.path.join(cases, "dam_break_2d.toml"), os.path.join(folder, "out")
+    words = ("run", case, "--out", out, "--quiet", "--set", "time.end=1 ms")
+    undine(program, *words)
+    before = open(os.path.join(out, "run.json"), encoding="utf-8").read()
+    undine(program, *words, expect=2)
+    require(open(os.path.join(out, "run.json"), encoding="utf-8").read() == before, "the first run is untouched")
+    undine(program, *words, "--overwrite")
+    require(True, "--overwrite runs")
+
+
+if __name__ == "__main__":
+    check, binary, place = sys.argv[1:4]
+    with tempfile.TemporaryDirectory() as scratch:
+        target = os.path.join(scratch, "out") if check == "smoke" else scratch
+        globals()[check](binary, place, target)
