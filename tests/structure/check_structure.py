@@ -35,6 +35,7 @@ ARROWS = {
 # (folder, included folder): why this arrow is allowed although the table above has it not.
 ARROW_EXCEPTIONS = {
     ("engine", "kernels"): "the kernel is evaluated in the pair loop, once for all terms",
+    ("schemes", "backend"): "which backend runs the sweeps is one of a scheme's options",
     ("backend", "kernels"): "the kernel is evaluated in the pair loop, once for all terms",
     ("approximation", "kernels"): "an approximation is made of a kernel and its corrections",
 }
@@ -46,6 +47,8 @@ ROOT_FILES = {"fields.def": "core", "undine.hpp": "app"}
 # also in a file that expands a list (that includes a *.def file); and all of them in the files named with a reason.
 PREPROCESSOR_FOLDERS = {"core", "backend"}
 PREPROCESSOR_FILES = {
+    "src/undine/io/hdf5_file.cpp": "instantiates its members for each number type of HDF5",
+    "src/undine/io/hdf5_write.cpp": "instantiates its members for each number type of HDF5",
     # "src/undine/folder/file.hpp": "reason",
 }
 

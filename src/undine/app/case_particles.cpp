@@ -1,6 +1,7 @@
 #include "undine/app/case_particles.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -94,7 +95,9 @@ ParticleList read_particle_list(const Table& table, int dimensions) {
 }
 
 void check_room(const Table& table, double count, double spacing) {
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (rlimit limit{}; getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    memory = std::min(memory, static_cast<double>(limit.rlim_cur));
   if (count * bytes_per_particle <= memory) return;
   throw InputError({.what = "the spacing makes more particles than this machine can hold", .where = table.where(),
                     .why = fmt::format("about {:.2g} particles {:.4g} m apart would take {:.2g} GB of the {:.2g} GB here", count, spacing,

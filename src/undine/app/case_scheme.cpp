@@ -31,10 +31,9 @@ std::string read_form(const Table& table, std::string_view fallback, std::vector
 
 /// A choice out of a list of terms with its parameters, or nothing for "none".
 template <class List>
-std::optional<OneOf<List>> read_optional(const Table& table, std::string_view fallback) {
+std::optional<OneOf<List>> read_optional(const Table& table, std::string_view fallback, OneOf<List> choice = {}) {
   const std::string form = read_form<List>(table, fallback, {"none"});
   if (form == "none") return {};
-  OneOf<List> choice;
   choice.choose(List::index_of(form));
   choice.with_chosen([&](auto& term) { read_parameters(table, term); });
   return choice;
@@ -103,14 +102,11 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   options.pressure.choose(terms::PressureForms::index_of(read_form<terms::PressureForms>(scheme.table("pressure"), Preset::pressure)));
   options.viscosity = read_optional<terms::ViscosityForms>(scheme.table("viscosity"), Preset::viscosity);
   options.diffusion = read_optional<terms::DiffusionForms>(scheme.table("density_diffusion"), Preset::diffusion);
-  if (const Table t = scheme.table("artificial_viscosity"); read_form<terms::ArtificialViscosities>(t, Preset::artificial, {"none"}) != "none") {
-    options.artificial = terms::ViscosityMonaghan{Preset::alpha, 0};
-    read_parameters(t, *options.artificial);
-  }
-  if (const Table t = scheme.table("xsph"); read_form<terms::VelocityCorrections>(t, Preset::xsph, {"none"}) != "none") {
-    options.xsph = terms::Xsph{Preset::epsilon};
-    read_parameters(t, *options.xsph);
-  }
+  terms::ViscosityMonaghan artificial;
+  artificial.alpha = Preset::alpha;
+  options.artificial = read_optional<terms::ArtificialViscosities>(scheme.table("artificial_viscosity"), Preset::artificial, artificial);
+  options.xsph = read_optional<terms::VelocityCorrections>(scheme.table("xsph"), Preset::xsph, terms::Xsph{Preset::epsilon});
+  options.strain_dissipation = root.table("output").flag("strain_dissipation", false);
 
   const Table wall = scheme.table("wall");
   const std::string treatment = wall.choice("treatment", walls::Walls::names(), std::string(Preset::wall));

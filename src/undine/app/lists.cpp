@@ -131,6 +131,7 @@ std::vector<Axis> make_axes() {
       axis_of<terms::DiffusionForms>("density_diffusion", "Density diffusion"),
       axis_of<terms::VelocityCorrections>("velocity_correction", "Corrections of the velocity that moves particles"),
       axis_of<terms::Sums>("sums", "Sums that densities are made of"),
+      axis_of<terms::Measures>("measures", "What a run measures with: gradients, and the approach speed for the step"),
       axis_of<materials::EquationsOfState>("equations_of_state", "Equations of state"),
       axis_of<walls::Walls>("walls", "Wall treatments"),
       axis_of<integrators::Integrators>("integrators", "Time integrators"),

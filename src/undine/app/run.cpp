@@ -82,8 +82,8 @@ class Run {
     fmt::print("  scheme      {}: kernel {}, pressure {}, {}{}{}{}{}\n", preset, o.kernels[0].info().name, o.pressure.info().name,
                o.density == DensityForm::evolved ? std::string(o.continuity.info().name) : "summation",
                o.viscosity ? fmt::format(", viscosity {}", o.viscosity->info().name) : "",
-               o.artificial ? fmt::format(", alpha {:.3g}", o.artificial->alpha) : "",
-               o.diffusion ? fmt::format(", diffusion {}", o.diffusion->info().name) : "", o.xsph ? fmt::format(", XSPH {:.3g}", o.xsph->epsilon) : "");
+               o.artificial ? fmt::format(", artificial viscosity {}", o.artificial->info().name) : "",
+               o.diffusion ? fmt::format(", diffusion {}", o.diffusion->info().name) : "", o.xsph ? ", XSPH" : "");
     fmt::print("  backend     {} x {}, pairs in {}, search {}\n", backend_names[static_cast<int>(o.backend.kind)], omp_get_max_threads(),
                precision_names[static_cast<int>(o.backend.precision)], o.neighbours.search);
     for (const auto& material : o.materials)

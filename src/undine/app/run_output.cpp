@@ -15,14 +15,16 @@ std::vector<SeriesColumn> energy_columns() {
   return {{"time", "s"},       {"step"},           {"dt", "s"},          {"kinetic", "J"},    {"potential", "J"},
           {"elastic", "J"},    {"viscous", "J"},   {"artificial", "J"},  {"diffusion", "J"},  {"exchange", "J"},
           {"walls", "J"},      {"xsph", "J"},      {"body", "J"},        {"total", "J"},      {"residual", "J"},
-          {"residual_relative"}};
+          {"residual_relative"}, {"strain_dissipation", "J"}, {"saalfeld_dissipation", "W"}};
 }
 
 const std::vector<std::string> energy_comments{
     "kinetic, potential, elastic: energies of the fluid; the next columns: what each term took out of them since t = 0",
     "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching compression;",
     "walls: given to walls; xsph: moved against gravity by XSPH; body: given to imposed fields",
-    "total: their sum; residual = total - total at t = 0; residual_relative: of the initial potential energy (or the largest energy)"};
+    "total: their sum; residual = total - total at t = 0; residual_relative: of the initial potential energy (or the largest energy)",
+    "strain_dissipation: integral of 2 mu D:D over fluid and time; saalfeld_dissipation: integral of mu D:D over the fluid, as printed in his eq. 51;",
+    "both 0 unless output.strain_dissipation = true"};
 
 }  // namespace
 
@@ -72,7 +74,7 @@ void EnergySeries<N>::add(const WeaklyCompressible<N>& flow, const Step& step, s
   const auto& l = e.ledger;
   const std::array row{flow.time(),  static_cast<double>(count), step.dt, e.kinetic, e.potential, e.elastic,  l.viscous, l.artificial,
                        l.diffusion, l.exchange,                 l.walls, l.xsph,    l.body,      e.total(), e.total() - start_total_,
-                       relative_residual(e)};
+                       relative_residual(e), e.strain_dissipated, 0.5 * e.strain_power};
   series_.add(row);
 }
 

@@ -19,6 +19,14 @@ class OneOf<Catalogue<Terms...>> {
   using adds = typename std::tuple_element_t<0, std::tuple<Terms...>>::adds;
   static_assert((std::is_same_v<adds, typename Terms::adds> && ...), "alternatives of one choice add to the same fields");
 
+  OneOf() = default;
+  /// The given alternative with its parameters, chosen.
+  template <class Term>
+    requires(std::is_same_v<Term, Terms> || ...)
+  OneOf(const Term& term) : index_(List::template index<Term>()) {
+    std::get<Term>(terms_) = term;
+  }
+
   void choose(int index) { index_ = index; }
   int index() const { return index_; }
   Info info() const { return List::info(index_); }
@@ -26,6 +34,10 @@ class OneOf<Catalogue<Terms...>> {
   /// The parameters of one alternative, chosen or not.
   template <class Term>
   Term& get() {
+    return std::get<Term>(terms_);
+  }
+  template <class Term>
+  const Term& get() const {
     return std::get<Term>(terms_);
   }
 

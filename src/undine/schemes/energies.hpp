@@ -24,6 +24,9 @@ struct Energies {
     double sum() const { return viscous + artificial + diffusion + exchange + walls + xsph + body; }
   } ledger;
 
+  double strain_dissipated = 0;  ///< integral of 2 mu D:D over the fluid and time, J; beside the sum, for comparison
+  double strain_power = 0;       ///< integral of 2 mu D:D over the fluid now, W
+
   double total() const { return kinetic + potential + elastic + ledger.sum(); }
 };
 

@@ -68,8 +68,8 @@ class WeaklyCompressible {
   using ContinuityUse = Use<OneOf<terms::ContinuityForms>, pr>;
   using PressureUse = Use<OneOf<terms::PressureForms>, pr>;
   using ViscosityUse = Use<OneOf<terms::ViscosityForms>, vi>;
-  using ArtificialUse = Use<terms::ViscosityMonaghan, vi>;
-  using XsphUse = Use<terms::Xsph, d>;
+  using ArtificialUse = Use<OneOf<terms::ArtificialViscosities>, vi>;
+  using XsphUse = Use<OneOf<terms::VelocityCorrections>, d>;
   using DiffusionUse = Use<OneOf<terms::DiffusionForms>, d>;
   using ApproachUse = Use<terms::ApproachSpeed, d>;
 
@@ -77,6 +77,7 @@ class WeaklyCompressible {
   void make_plan();
   void add_density_stages();
   void add_wall_stages();
+  void add_strain_stage();
   template <class Sweep>
   void add_sweep(Sweep& sweep, bool from_walls);
   template <class Update>
@@ -101,6 +102,7 @@ class WeaklyCompressible {
   double time_ = 0, time_start_ = 0;
   Vec<N> potential_origin_{};
   Energies::Ledger ledger_, ledger_start_;
+  double strain_power_ = 0, strain_dissipated_ = 0;
   long list_builds_ = 0;
   double seconds_lists_ = 0, seconds_sweeps_ = 0;
 
@@ -112,6 +114,7 @@ class WeaklyCompressible {
   PairSweep<N, Use<terms::ShepardSum, d>> shepard_{"shepard sum", Group::fluid};
   PairSweep<N, Use<terms::Summation, d>> wall_summation_{"wall summation", Group::wall};
   PairSweep<N, Use<terms::DensityGradient, d>> gradient_{"density gradient", Group::fluid};
+  PairSweep<N, Use<terms::VelocityGradient, d>> strain_{"velocity gradient", Group::fluid};
   PairSweep<N, PressureUse, ViscosityUse, ArtificialUse> wall_force_{"wall force", Group::wall};
 };
 

@@ -54,9 +54,9 @@ void WeaklyCompressible<N>::configure() {
   force_.template use<0>() = {options_.pressure, true, {true, walls}, {}};
   force_.template use<1>() = {continuity, true, {true, walls}, {}};
   force_.template use<2>() = {options_.viscosity.value_or(OneOf<terms::ViscosityForms>{}), options_.viscosity.has_value(), {true, friction}, {}};
-  force_.template use<3>() = {options_.artificial.value_or(terms::ViscosityMonaghan{}), options_.artificial.has_value(), {true, friction}, {}};
+  force_.template use<3>() = {options_.artificial.value_or(OneOf<terms::ArtificialViscosities>{}), options_.artificial.has_value(), {true, friction}, {}};
   force_.template use<4>() = {options_.diffusion.value_or(OneOf<terms::DiffusionForms>{}), diffuses(), {true, false}, {}};
-  force_.template use<5>() = {options_.xsph.value_or(terms::Xsph{}), options_.xsph.has_value(), {true, false}, {}};
+  force_.template use<5>() = {options_.xsph.value_or(OneOf<terms::VelocityCorrections>{}), options_.xsph.has_value(), {true, false}, {}};
   force_.template use<6>() = {{}, true, {true, walls}, {}};
   auto& fourtakas = force_.template use<4>().term.template get<terms::DiffusionFourtakas>();
   for (int k = 0; k < N; ++k) fourtakas.gravity[k] = options_.gravity[k];
@@ -67,6 +67,7 @@ void WeaklyCompressible<N>::configure() {
   shepard_.template use<0>() = {{}, true, {true, walls}, {}};
   wall_summation_.template use<0>() = {{}, true, {true, false}, {}};
   gradient_.template use<0>() = {{}, true, {true, false}, {}};
+  strain_.template use<0>() = {{}, true, {true, friction}, {}};
   wall_force_.template use<0>() = {options_.pressure, true, {true, false}, {}};
   wall_force_.template use<1>() = {force_.template use<2>().term, options_.viscosity && friction, {true, false}, {}};
   wall_force_.template use<2>() = {force_.template use<3>().term, options_.artificial && friction, {true, false}, {}};
@@ -86,6 +87,7 @@ void WeaklyCompressible<N>::make_plan() {
     add_update("renormalised gradient", Group::fluid, rules::RenormaliseGradient<N>{});
   }
   add_sweep(force_, walls);
+  if (options_.strain_dissipation) add_strain_stage();
   if (norm_sq(options_.gravity) > 0 || options_.body_force) {
     const Resources changed(Group::fluid, Fields<acc>::set());
     plan_.add({"body force", Resources(changed).add(Group::fluid, Fields<x, v, m>::set()), changed, [this] {
@@ -142,6 +144,24 @@ void WeaklyCompressible<N>::add_wall_stages() {
     add_sweep(wall_continuity_, false);
   }
   add_update("wall equation of state", Group::wall, rules::ApplyEquationOfState{options_.materials});
+}
+
+/// Dissipation by the velocity gradient L: 2 mu D:D per volume, D = (L + L^T)/2. Saalfeld (2012), eq. 51-54 (with the factor 2).
+template <int N>
+void WeaklyCompressible<N>::add_strain_stage() {
+  add_sweep(strain_, options_.wall_density != WallDensity::none);
+  plan_.add({"dissipation", Resources(Group::fluid, Fields<strain, m, rho, mu>::set()), {}, [this] {
+               const auto gradient = store_.template get<strain>();
+               const auto mass = store_.template get<m>();
+               const auto density = store_.template get<rho>();
+               const auto viscosity = store_.template get<mu>();
+               strain_power_ = total_over(store_, Group::fluid, [&](std::size_t a) {
+                 double d_d = 0;
+                 for (int i = 0; i < N; ++i)
+                   for (int j = 0; j < N; ++j) d_d += sq(0.5 * (gradient[a][i][j] + gradient[a][j][i]));
+                 return 2 * viscosity[a] * d_d * mass[a] / density[a];
+               });
+             }});
 }
 
 template <int N>
@@ -330,6 +350,7 @@ void WeaklyCompressible<N>::book(double dt) {
   ledger_.exchange -= dt * (pressure[fluid] + compression[fluid]);
   ledger_.walls -= dt * (pressure[wall] + compression[wall] + viscous[wall] + artificial[wall]);
   ledger_.body -= dt * body_power_;
+  strain_dissipated_ += dt * strain_power_;
 }
 
 template <int N>
@@ -368,6 +389,8 @@ Energies WeaklyCompressible<N>::energies() const {
   e.potential = -sum([&](std::size_t i) { return mass[i] * dot(options_.gravity, at[i] - potential_origin_); });
   e.elastic = sum([&](std::size_t i) { return mass[i] * options_.materials[material[i]].energy(density[i]); });
   e.ledger = ledger_;
+  e.strain_power = strain_power_;
+  e.strain_dissipated = strain_dissipated_;
   return e;
 }
 
@@ -378,7 +401,7 @@ void WeaklyCompressible<N>::evaluate_wall_forces() {
 
 template <int N>
 std::vector<double> WeaklyCompressible<N>::memory() const {
-  std::vector<double> numbers{time_, neighbours_.support(), body_power_};
+  std::vector<double> numbers{time_, neighbours_.support(), body_power_, strain_power_, strain_dissipated_};
   const auto& l = ledger_;
   numbers.insert(numbers.end(), {l.viscous, l.artificial, l.diffusion, l.exchange, l.walls, l.xsph, l.body});
   std::apply([&](const auto&... use) { (numbers.insert(numbers.end(), use.power.begin(), use.power.end()), ...); }, force_.uses());
@@ -391,6 +414,8 @@ void WeaklyCompressible<N>::recall(const std::vector<double>& numbers) {
   time_ = *next++;
   neighbours_.rebuild_from_list_positions(store_, *next++);
   body_power_ = *next++;
+  strain_power_ = *next++;
+  strain_dissipated_ = *next++;
   auto& l = ledger_;
   for (double* account : {&l.viscous, &l.artificial, &l.diffusion, &l.exchange, &l.walls, &l.xsph, &l.body}) *account = *next++;
   std::apply(

@@ -45,8 +45,8 @@ struct WeaklyCompressibleOptions {
   OneOf<terms::ContinuityForms> continuity;
   OneOf<terms::PressureForms> pressure;
   std::optional<OneOf<terms::ViscosityForms>> viscosity;
-  std::optional<terms::ViscosityMonaghan> artificial;
-  std::optional<terms::Xsph> xsph;
+  std::optional<OneOf<terms::ArtificialViscosities>> artificial;
+  std::optional<OneOf<terms::VelocityCorrections>> xsph;
   std::optional<OneOf<terms::DiffusionForms>> diffusion;
 
   walls::WallDensity wall_density = walls::WallDensity::none;
@@ -54,6 +54,7 @@ struct WeaklyCompressibleOptions {
   Reflector<N> reflector;      ///< empty: no elastic walls
 
   std::vector<materials::Material> materials;
+  bool strain_dissipation = false;  ///< also measure 2 mu D:D from the velocity gradient, at the cost of a sweep
   Vec<N> gravity{};
   BodyForce<N> body_force;     ///< empty: gravity alone
 

@@ -44,5 +44,6 @@ using DiffusionForms = Catalogue<  //
 using ArtificialViscosities = Catalogue<ViscosityMonaghan>;
 using VelocityCorrections = Catalogue<Xsph>;
 using Sums = Catalogue<Summation, ShepardSum>;
+using Measures = Catalogue<DensityGradient, VelocityGradient, ApproachSpeed>;
 
 }  // namespace undine::terms

@@ -9,7 +9,7 @@
 namespace undine::test {
 
 /// The terms that are in no list: each does one fixed job.
-using LoneTerms = Catalogue<terms::DensityGradient, terms::VelocityGradient, terms::ApproachSpeed>;
+using LoneTerms = terms::Measures;
 
 template <class List>
 struct EveryTermOf;
