@@ -112,9 +112,10 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   const std::string treatment = wall.choice("treatment", walls::Walls::names(), std::string(Preset::wall));
   walls::Walls::visit(walls::Walls::index_of(treatment), [&]<class W>(W) {
     options.wall_density = W::density;
-    choice.reflects = wall.flag("guard", W::reflects);
+    choice.reflects = wall.flag("guard", W::reflects || Preset::guard);
   });
   choice.wall_particles = options.wall_density != walls::WallDensity::none;
+  options.wall_pulls = wall.flag("pulls", Preset::wall_pulls);
   options.wall_friction = wall.flag("friction", true);
   choice.restitution = wall.in_range("restitution", unit::one, {0, 1}, 1.0);
   const std::int64_t layers = wall.integer("layers", Preset::wall_layers);

@@ -30,6 +30,7 @@ class PairSweep {
   const std::string& name() const { return name_; }
   Group target() const { return target_; }
   static FieldSet reads() { return Union<typename Uses::Term::reads...>::set(); }
+  static FieldSet target_reads() { return (target_reads_of<typename Uses::Term>() | ...); }
   static FieldSet adds() { return Union<typename Uses::Term::adds...>::set(); }
 
   void run(const SweepContext<N>& context, const Backend& backend) {
@@ -64,7 +65,7 @@ class PairSweep {
     });
     for (const Group group : all_groups)
       if (group == target_ || takes_from(group))
-        check_finite(context, reads() | Fields<field::x, field::h>::set(), context.store.range(group), "reads a value that nothing wrote");
+        check_finite(context, (takes_from(group) ? reads() : target_reads()) | Fields<field::x, field::h>::set(), context.store.range(group), "reads a value that nothing wrote");
     run_serial(context);
     check_finite(context, adds(), targets, "gave a value that is not finite");
   }

@@ -31,6 +31,16 @@ struct Use {
   bool acts_on(Group source) const { return active && sources[static_cast<int>(source)]; }
 };
 
+/// The fields that a term reads of its target: all that it reads, unless it says otherwise.
+template <class Term>
+FieldSet target_reads_of() {
+  if constexpr (requires { typename Term::target_reads; }) {
+    return Term::target_reads::set();
+  } else {
+    return Term::reads::set();
+  }
+}
+
 /// Everything a sweep needs to know of the run.
 template <int N>
 struct SweepContext {

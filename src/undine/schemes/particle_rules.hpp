@@ -46,6 +46,23 @@ struct AnswerModifiedDensity {
   auto operator()(const auto& a, int) const { return writes::row(std::max(a.rho_0, a.rho_wall + a.rho_sum)); }
 };
 
+/// p_w as the fluid before it has it, zero where there is none; a wall pulls only if it may. rho_w and c_w follow from p_w.
+struct AnswerExtrapolatedPressure {
+  using reads = Fields<p_sum, w_sum>;
+  using writes = Fields<p, rho, c>;
+  const std::vector<materials::Material>& materials;
+  bool pulls;
+
+  auto operator()(const auto& a, int material) const {
+    const auto& substance = materials[material];
+    const double rest = substance.pressure(substance.rho_0);
+    const double extrapolated = a.w_sum > 1e-6 ? a.p_sum / a.w_sum : rest;
+    const double pressure = pulls ? extrapolated : std::max(rest, extrapolated);
+    const double density = substance.density(pressure);
+    return writes::row(pressure, density, substance.sound_speed(density));
+  }
+};
+
 /// h = h_0 (rho_0/rho)^(1/N). Niedoba (2012), eq. 2.67.
 template <int N>
 struct FollowDensity {

@@ -11,12 +11,13 @@ namespace undine::presets {
 struct Recommended {
   static constexpr Info info{"recommended", "What we find best for free-surface water",
                              "Wendland C2, H = 2.6 dp, continuity, symmetric pressure, Tait by sound speed, fourtakas diffusion, "
-                             "alpha = 0.02, walls of particles guarded by reflection",
+                             "alpha = 0.02, Adami walls that never pull, guarded by reflection",
                              "docs/decisions.md"};
   static constexpr std::string_view kernel = "wendland_c2", density = "continuity", pressure = "symmetric", viscosity = "none",
                                     artificial = "monaghan", diffusion = "fourtakas", xsph = "none", eos = "tait_sound_speed",
-                                    wall = "wall_particles", wall_reference = "auto", integrator = "leapfrog";
+                                    wall = "adami", wall_reference = "auto", integrator = "leapfrog";
   static constexpr double support_over_spacing = 2.6, alpha = 0.02, epsilon = 0.5, fixed_step = 0;
+  static constexpr bool wall_pulls = false, guard = true;
   static constexpr int wall_layers = 0;  ///< 0: as many as the support needs
 };
 
@@ -29,6 +30,7 @@ struct Saalfeld {
                                     viscosity = "laminar", artificial = "none", diffusion = "none", xsph = "xsph", eos = "tait",
                                     wall = "combined", wall_reference = "rho_0", integrator = "leapfrog";
   static constexpr double support_over_spacing = 2.25, alpha = 0.02, epsilon = 0.1, fixed_step = 1e-3;
+  static constexpr bool wall_pulls = true, guard = false;
   static constexpr int wall_layers = 1;
 };
 

@@ -113,6 +113,7 @@ class WeaklyCompressible {
   PairSweep<N, Use<terms::Summation, d>> summation_{"summation", Group::fluid};
   PairSweep<N, Use<terms::ShepardSum, d>> shepard_{"shepard sum", Group::fluid};
   PairSweep<N, Use<terms::Summation, d>> wall_summation_{"wall summation", Group::wall};
+  PairSweep<N, Use<terms::WallExtrapolation, d>> wall_pressure_{"wall pressure", Group::wall};
   PairSweep<N, Use<terms::DensityGradient, d>> gradient_{"density gradient", Group::fluid};
   PairSweep<N, Use<terms::VelocityGradient, d>> strain_{"velocity gradient", Group::fluid};
   PairSweep<N, PressureUse, ViscosityUse, ArtificialUse> wall_force_{"wall force", Group::wall};

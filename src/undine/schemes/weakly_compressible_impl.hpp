@@ -58,16 +58,18 @@ void WeaklyCompressible<N>::configure() {
   force_.template use<4>() = {options_.diffusion.value_or(OneOf<terms::DiffusionForms>{}), diffuses(), {true, false}, {}};
   force_.template use<5>() = {options_.xsph.value_or(OneOf<terms::VelocityCorrections>{}), options_.xsph.has_value(), {true, false}, {}};
   force_.template use<6>() = {{}, true, {true, walls}, {}};
-  auto& fourtakas = force_.template use<4>().term.template get<terms::DiffusionFourtakas>();
-  for (int k = 0; k < N; ++k) fourtakas.gravity[k] = options_.gravity[k];
-
   continuity_.template use<0>() = {continuity, true, {true, walls}, {}};
   wall_continuity_.template use<0>() = {continuity, true, {true, false}, {}};
   summation_.template use<0>() = {{}, true, {true, walls}, {}};
   shepard_.template use<0>() = {{}, true, {true, walls}, {}};
   wall_summation_.template use<0>() = {{}, true, {true, false}, {}};
+  wall_pressure_.template use<0>() = {{}, true, {true, false}, {}};
   gradient_.template use<0>() = {{}, true, {true, false}, {}};
   strain_.template use<0>() = {{}, true, {true, friction}, {}};
+  auto& fourtakas = force_.template use<4>().term.template get<terms::DiffusionFourtakas>();
+  auto& extrapolation = wall_pressure_.template use<0>().term;
+  for (int k = 0; k < N; ++k) extrapolation.gravity[k] = fourtakas.gravity[k] = options_.gravity[k];
+
   wall_force_.template use<0>() = {options_.pressure, true, {true, false}, {}};
   wall_force_.template use<1>() = {force_.template use<2>().term, options_.viscosity && friction, {true, false}, {}};
   wall_force_.template use<2>() = {force_.template use<3>().term, options_.artificial && friction, {true, false}, {}};
@@ -137,6 +139,11 @@ void WeaklyCompressible<N>::add_density_stages() {
 
 template <int N>
 void WeaklyCompressible<N>::add_wall_stages() {
+  if (options_.wall_density == WallDensity::extrapolated) {
+    add_sweep(wall_pressure_, false);
+    add_update("wall answer", Group::wall, rules::AnswerExtrapolatedPressure{options_.materials, options_.wall_pulls});
+    return;
+  }
   if (options_.wall_density == WallDensity::modified) {
     add_sweep(wall_summation_, false);
     add_update("wall density", Group::wall, rules::AnswerModifiedDensity{});
@@ -167,9 +174,10 @@ void WeaklyCompressible<N>::add_strain_stage() {
 template <int N>
 template <class Sweep>
 void WeaklyCompressible<N>::add_sweep(Sweep& sweep, bool from_walls) {
-  const FieldSet needed = Sweep::reads() | Fields<x, h>::set();
-  Resources reads(Group::fluid, needed);
-  if (from_walls || sweep.target() == Group::wall) reads.add(Group::wall, needed);
+  const FieldSet place = Fields<x, h>::set();
+  Resources reads(Group::fluid, Sweep::reads() | place);
+  if (from_walls) reads.add(Group::wall, Sweep::reads() | place);
+  reads.add(sweep.target(), Sweep::target_reads() | place);
   plan_.add({sweep.name(), reads, Resources(sweep.target(), Sweep::adds()), [this, &sweep] { run(sweep); }});
 }
 
@@ -292,7 +300,10 @@ void WeaklyCompressible<N>::compress(double dt) {
   if (options_.density == DensityForm::evolved)
     for_each_particle(store_, Group::fluid, [&](std::size_t i) { density[i] += dt * (rate[i] + diffused[i]); });
   if (options_.wall_density == WallDensity::evolved)
-    for_each_particle(store_, Group::wall, [&](std::size_t i) { density[i] += dt * rate[i]; });
+    for_each_particle(store_, Group::wall, [&](std::size_t i) {
+      density[i] += dt * rate[i];
+      if (!options_.wall_pulls) density[i] = std::max(density[i], store_.template get<rho_0>()[i]);
+    });
 }
 
 template <int N>

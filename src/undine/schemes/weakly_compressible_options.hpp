@@ -50,6 +50,7 @@ struct WeaklyCompressibleOptions {
   std::optional<OneOf<terms::DiffusionForms>> diffusion;
 
   walls::WallDensity wall_density = walls::WallDensity::none;
+  bool wall_pulls = false;      ///< whether evolved wall particles may fall below rho_0, and then pull on fluid that leaves
   bool wall_friction = true;   ///< whether viscosities act between fluid and walls
   Reflector<N> reflector;      ///< empty: no elastic walls
 

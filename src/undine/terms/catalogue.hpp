@@ -15,6 +15,7 @@
 #include "undine/terms/viscosity/laminar.hpp"
 #include "undine/terms/viscosity/monaghan.hpp"
 #include "undine/terms/viscosity/mueller.hpp"
+#include "undine/terms/wall/extrapolation.hpp"
 
 namespace undine::terms {
 
@@ -44,6 +45,6 @@ using DiffusionForms = Catalogue<  //
 using ArtificialViscosities = Catalogue<ViscosityMonaghan>;
 using VelocityCorrections = Catalogue<Xsph>;
 using Sums = Catalogue<Summation, ShepardSum>;
-using Measures = Catalogue<DensityGradient, VelocityGradient, ApproachSpeed>;
+using Measures = Catalogue<DensityGradient, VelocityGradient, ApproachSpeed, WallExtrapolation>;
 
 }  // namespace undine::terms

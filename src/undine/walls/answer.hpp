@@ -6,7 +6,8 @@ namespace undine::walls {
 enum class WallDensity {
   none,     ///< there are no wall particles
   evolved,  ///< by continuity, as fluid
-  modified  ///< reference density plus the sum over the fluid: Saalfeld (2012), eq. 70
+  modified,     ///< reference density plus the sum over the fluid: Saalfeld (2012), eq. 70
+  extrapolated  ///< from the pressure of the fluid, carried to the wall: Adami et al. (2012)
 };
 
 }  // namespace undine::walls

@@ -1,4 +1,5 @@
 #pragma once
+#include "undine/walls/adami.hpp"
 #include "undine/walls/combined.hpp"
 #include "undine/walls/elastic.hpp"
 #include "undine/walls/modified_density.hpp"
@@ -10,6 +11,7 @@ namespace undine::walls {
 /// The one list of wall treatments. A wall is a neighbour that answers with values: terms know none of this.
 using Walls = Catalogue<   //
     Combined,              //
+    Adami,                 //
     WallParticles,         //
     ModifiedDensity,       //
     Elastic,               //

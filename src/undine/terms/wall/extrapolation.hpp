@@ -1,0 +1,25 @@
+#pragma once
+#include "undine/core/catalogue.hpp"
+#include "undine/core/fields.hpp"
+
+namespace undine::terms {
+using namespace field;
+
+struct WallExtrapolation {
+  static constexpr Info info{"wall_extrapolation", "Pressure of the fluid carried hydrostatically to a wall particle, and its weight",
+                             "p_w = sum_f V_f (p_f + rho_f g.(x_w - x_f)) W_wf / sum_f V_f W_wf", "Adami et al. (2012), eq. 27"};
+  using reads = Fields<m, rho, p>;
+  using target_reads = Fields<>;  // of the wall particle only its place
+  using adds = Fields<p_sum, w_sum>;
+
+  Vec<3> gravity;  ///< less the wall's own acceleration, m/s^2; set by the scheme
+
+  auto operator()(const auto&, const auto& b, const auto& ab) const {
+    auto g_dx = gravity[0] * ab.dx[0];
+    for (int k = 1; k < ab.dim; ++k) g_dx = g_dx + gravity[k] * ab.dx[k];
+    const auto weight = b.m / b.rho * ab.w;
+    return adds::row(weight * (b.p + b.rho * g_dx), weight);
+  }
+};
+
+}  // namespace undine::terms
