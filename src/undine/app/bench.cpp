@@ -1,13 +1,12 @@
 #include "undine/app/bench.hpp"
 
-#include <fmt/format.h>
-#include <omp.h>
-
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <omp.h>
 
 #include "undine/integrators/leapfrog.hpp"
 #include "undine/io/run_record.hpp"
@@ -16,8 +15,8 @@
 namespace undine {
 namespace {
 
-/// A cube of fluid on a lattice that is jittered by 10 % and turned out of the axes: an aligned lattice flatters every blocked
-/// scheme.
+/// A cube of fluid on a lattice that is jittered by 10 % and turned out of the axes: an aligned lattice flatters every
+/// blocked scheme.
 Store<3> rotated_block(int side, double dp, double H) {
   Store<3> store;
   using namespace field;
@@ -85,8 +84,9 @@ Rate time_steps(const BenchOptions& bench, double support, PairPrecision precisi
 
 void add_bench_options(CLI::App& command, BenchOptions& options) {
   command.add_option("--particles", options.particles, "about how many")->check(CLI::Range(1000, 100000000));
-  command.add_option("--repeats", options.repeats, "timed repeats of 5 steps; the median counts")->check(CLI::Range(1, 1000));
-  command.add_option("--threads", options.threads, "0: one, then all cores")->check(CLI::NonNegativeNumber);
+  command.add_option("--repeats", options.repeats, "timed repeats of 5 steps; the median counts")
+      ->check(CLI::Range(1, 1000));
+  command.add_option("--threads", options.threads, "0: one, then all cores")->check(CLI::Range(0, 1024));
   command.add_flag("--json", options.json, "an array of objects");
 }
 
@@ -96,19 +96,27 @@ int run_bench(const BenchOptions& bench) {
   if (bench.threads > 0) threads = {bench.threads};
   Json rows = Json::array();
   if (!bench.json)
-    fmt::print("whole leapfrog steps (continuity, lists, pressure, alpha, XSPH, diffusion, step limit), {} particles, median of {}\n"
-               "{:>9} {:>8} {:>11} {:>16} {:>12} {:>8} {:>8}\n", bench.particles, bench.repeats, "precision", "threads", "neighbours", "particle-steps/s", "pairs/s",
-               "sweeps", "lists");
+    fmt::print(
+        "whole leapfrog steps (continuity, lists, pressure, alpha, XSPH, diffusion, step limit), {} particles, median "
+        "of {}\n"
+        "{:>9} {:>8} {:>11} {:>16} {:>12} {:>8} {:>8}\n",
+        bench.particles, bench.repeats, "precision", "threads", "neighbours", "particle-steps/s", "pairs/s", "sweeps",
+        "lists");
   for (const double support : {2.6, 3.46})
     for (const auto precision : {PairPrecision::mixed, PairPrecision::double_precision})
       for (const int t : threads) {
         const Rate r = time_steps(bench, support, precision, t);
         const auto name = precision_names[static_cast<int>(precision)];
-        rows.push_back({{"name", "step"}, {"particles", bench.particles}, {"neighbours", r.neighbours}, {"threads", t}, {"precision", name},
-                        {"particle_steps_per_s", r.steps_per_s}, {"pairs_per_s", r.pairs_per_s}});
+        rows.push_back({{"name", "step"},
+                        {"particles", bench.particles},
+                        {"neighbours", r.neighbours},
+                        {"threads", t},
+                        {"precision", name},
+                        {"particle_steps_per_s", r.steps_per_s},
+                        {"pairs_per_s", r.pairs_per_s}});
         if (!bench.json)
-          fmt::print("{:>9} {:>8} {:>11.0f} {:>14.3g} M {:>10.3g} M {:>6.0f} % {:>6.0f} %\n", name, t, r.neighbours, r.steps_per_s * 1e-6, r.pairs_per_s * 1e-6,
-                     100 * r.sweep_share, 100 * r.list_share);
+          fmt::print("{:>9} {:>8} {:>11.0f} {:>14.3g} M {:>10.3g} M {:>6.0f} % {:>6.0f} %\n", name, t, r.neighbours,
+                     r.steps_per_s * 1e-6, r.pairs_per_s * 1e-6, 100 * r.sweep_share, 100 * r.list_share);
       }
   if (bench.json) fmt::print("{}", to_text(rows));
   return 0;

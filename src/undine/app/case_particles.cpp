@@ -1,11 +1,11 @@
 #include "undine/app/case_particles.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
@@ -46,7 +46,8 @@ ParticleList read_snapshot_list(const Table& table, const fs::path& file, int di
   }();
   if (frame.dimensions != dimensions)
     table.fail("particles", fmt::format("the particles of '{}' have {} coordinates", file.string(), frame.dimensions),
-               fmt::format("the case has {} dimensions", dimensions), "name a snapshot of as many dimensions, or change 'dimensions'");
+               fmt::format("the case has {} dimensions", dimensions),
+               "name a snapshot of as many dimensions, or change 'dimensions'");
   const auto n = static_cast<std::size_t>(dimensions);
   ParticleList list{std::vector<Vec3>(frame.particles), {}};
   const auto& x = frame.find(frame.position)->data;
@@ -56,7 +57,8 @@ ParticleList read_snapshot_list(const Table& table, const fs::path& file, int di
     if (const auto* column = frame.find(name); column && column->components == 1) list.given[name] = column->data;
   if (const auto* v = frame.find("v"); v && v->components == dimensions)
     for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t i = 0; i < frame.particles; ++i) list.given[std::string("v") + "xyz"[k]].push_back(v->data[i * n + k]);
+      for (std::size_t i = 0; i < frame.particles; ++i)
+        list.given[std::string("v") + "xyz"[k]].push_back(v->data[i * n + k]);
   return list;
 }
 
@@ -64,7 +66,8 @@ void check_values(const Table& table, const fs::path& file, const ParticleList& 
   const auto bad = [&](std::size_t i, std::string_view name, double value, std::string_view rule) {
     const Vec3& p = list.points[i];
     table.fail("particles", fmt::format("{} is {:.6g} in particle {} of '{}'", name, value, i + 1, file.string()),
-               fmt::format("the particle at ({:.4g}, {:.4g}, {:.4g}) m; it must be {}", p[0], p[1], p[2], rule), "correct the list");
+               fmt::format("the particle at ({:.4g}, {:.4g}, {:.4g}) m; it must be {}", p[0], p[1], p[2], rule),
+               "correct the list");
   };
   for (std::size_t i = 0; i < list.points.size(); ++i)
     for (int k = 0; k < 3; ++k)
@@ -72,7 +75,8 @@ void check_values(const Table& table, const fs::path& file, const ParticleList& 
   for (const auto& [name, values] : list.given) {
     const bool amount = name == "rho" || name == "m";
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i]) || (amount && values[i] <= 0)) bad(i, name, values[i], amount ? "greater than 0" : "a finite number");
+      if (!std::isfinite(values[i]) || (amount && values[i] <= 0))
+        bad(i, name, values[i], amount ? "greater than 0" : "a finite number");
   }
 }
 
@@ -82,7 +86,8 @@ fs::path existing_file(const Table& table, std::string_view key) {
   const fs::path file = table.path(key);
   std::error_code failure;
   if (!fs::is_regular_file(file, failure))
-    table.fail(key, fmt::format("there is no file '{}'", file.string()), {}, "check the path; names are relative to the case file's folder");
+    table.fail(key, fmt::format("there is no file '{}'", file.string()), {},
+               "check the path; names are relative to the case file's folder");
   return file;
 }
 
@@ -99,10 +104,12 @@ void check_room(const Table& table, double count, double spacing) {
   if (rlimit limit{}; getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
     memory = std::min(memory, static_cast<double>(limit.rlim_cur));
   if (count * bytes_per_particle <= memory) return;
-  throw InputError({.what = "the spacing makes more particles than this machine can hold", .where = table.where(),
-                    .why = fmt::format("about {:.2g} particles {:.4g} m apart would take {:.2g} GB of the {:.2g} GB here", count, spacing,
-                                       count * bytes_per_particle * 1e-9, memory * 1e-9),
-                    .fix = "choose a larger spacing or a smaller body; lengths are in metres"});
+  throw InputError(
+      {.what = "the spacing makes more particles than this machine can hold",
+       .where = table.where(),
+       .why = fmt::format("about {:.2g} particles {:.4g} m apart would take {:.2g} GB of the {:.2g} GB here", count,
+                          spacing, count * bytes_per_particle * 1e-9, memory * 1e-9),
+       .fix = "choose a larger spacing or a smaller body; lengths are in metres"});
 }
 
 double lattice_points(const Bounds& box, double spacing, double margin, int dimensions) {

@@ -10,12 +10,13 @@ namespace undine {
 
 /// Particles that a case takes from a file.
 struct ParticleList {
-  std::vector<Vec3> points;                          ///< m
-  std::map<std::string, std::vector<double>> given;  ///< columns vx, vy, vz (m/s), rho (kg/m^3) and m (kg), where the file has them
+  std::vector<Vec3> points;  ///< m
+  std::map<std::string, std::vector<double>>
+      given;  ///< columns vx, vy, vz (m/s), rho (kg/m^3) and m (kg), where the file has them
 };
 
-/// The file that key `particles` of a body's table names: comma-separated values (.csv) or a snapshot. Throws InputError with
-/// the place in the list or, where a list has none, in the case.
+/// The file that key `particles` of a body's table names: comma-separated values (.csv) or a snapshot. Throws
+/// InputError with the place in the list or, where a list has none, in the case.
 ParticleList read_particle_list(const Table& table, int dimensions);
 
 /// The file that a key names, which must exist. Throws InputError at the key.

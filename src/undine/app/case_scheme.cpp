@@ -1,8 +1,8 @@
 #include "undine/app/case_scheme.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "undine/core/error.hpp"
 #include "undine/integrators/catalogue.hpp"
@@ -15,9 +15,11 @@ namespace {
 template <class T>
 void read_parameters(const Table& table, T& owner) {
   for_each_parameter<T>([&](const auto& parameter) {
-    const Dimension dimension =
-        parameter.unit == "1" || parameter.unit == "SI" ? unit::one : parse_quantity("1 " + std::string(parameter.unit)).dimension;
-    owner.*parameter.member = table.in_range(parameter.name, dimension, {parameter.low, parameter.high}, owner.*parameter.member);
+    const Dimension dimension = parameter.unit == "1" || parameter.unit == "SI"
+                                    ? unit::one
+                                    : parse_quantity("1 " + std::string(parameter.unit)).dimension;
+    owner.*parameter.member =
+        table.in_range(parameter.name, dimension, {parameter.low, parameter.high}, owner.*parameter.member);
   });
 }
 
@@ -46,7 +48,8 @@ void read_smoothing(const Table& scheme, double spacing, double preset_ratio, We
   // A kernel whose natural kappa is 1 leaves h = H: viscosity and step limits then see the whole support.
   support.kappa = table.in_range("kappa", unit::one, {0.5, 10}, options.kernels[0].natural_kappa());
   if (table.has("support") && table.has("h_over_spacing"))
-    table.fail("h_over_spacing", "both 'support' and 'h_over_spacing' are given", "they say the same thing: H = kappa h", "keep one of them");
+    table.fail("h_over_spacing", "both 'support' and 'h_over_spacing' are given",
+               "they say the same thing: H = kappa h", "keep one of them");
   if (table.has("h_over_spacing")) {
     support.uniform = support.kappa * spacing * table.positive("h_over_spacing", unit::one);
   } else {
@@ -56,21 +59,26 @@ void read_smoothing(const Table& scheme, double spacing, double preset_ratio, We
   if (ratio < 1.2 || ratio > 8)
     table.fail(table.has("support") ? "support" : "h_over_spacing",
                fmt::format("the support radius is {:.3g} spacings", ratio),
-               fmt::format("H = {:.4g} m, spacing = {:.4g} m; below 1.2 a particle has no neighbours, above 8 it has thousands", support.uniform, spacing),
+               fmt::format(
+                   "H = {:.4g} m, spacing = {:.4g} m; below 1.2 a particle has no neighbours, above 8 it has thousands",
+                   support.uniform, spacing),
                "choose support between 2 and 4 spacings (h_over_spacing about 1.0 to 2.0)");
   options.rho_law = table.choice("law", {"constant", "density"}, "constant") == "density";
   const std::vector<std::string> means{"arithmetic", "geometric", "max", "min"};
-  support.mean = static_cast<Symmetrisation>(std::ranges::find(means, table.choice("mean", means, "arithmetic")) - means.begin());
+  support.mean =
+      static_cast<Symmetrisation>(std::ranges::find(means, table.choice("mean", means, "arithmetic")) - means.begin());
 }
 
 template <int N>
 void read_backend(const Table& scheme, WeaklyCompressibleOptions<N>& options) {
   const std::vector<std::string> kinds(backend_names.begin(), backend_names.end());
   const std::vector<std::string> precisions(precision_names.begin(), precision_names.end());
-  options.backend.kind = static_cast<BackendKind>(std::ranges::find(kinds, scheme.choice("backend", kinds, "threads")) - kinds.begin());
+  options.backend.kind =
+      static_cast<BackendKind>(std::ranges::find(kinds, scheme.choice("backend", kinds, "threads")) - kinds.begin());
   const bool plain = options.backend.kind != BackendKind::threads;
   options.backend.precision = static_cast<PairPrecision>(
-      std::ranges::find(precisions, scheme.choice("precision", precisions, plain ? "double" : "mixed")) - precisions.begin());
+      std::ranges::find(precisions, scheme.choice("precision", precisions, plain ? "double" : "mixed")) -
+      precisions.begin());
   if (plain && options.backend.precision == PairPrecision::mixed)
     scheme.fail("precision", "the serial and checked backends work in double only", "they define what is right",
                 "set precision = \"double\" or backend = \"threads\"");
@@ -93,19 +101,22 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   read_smoothing(scheme, spacing, Preset::support_over_spacing, options);
   read_backend(scheme, options);
 
-  const std::string density =
-      read_form<terms::ContinuityForms>(scheme.table("density"), Preset::density, {"summation", "normalised_summation"});
-  options.density = density == "summation" ? DensityForm::summation
+  const std::string density = read_form<terms::ContinuityForms>(scheme.table("density"), Preset::density,
+                                                                {"summation", "normalised_summation"});
+  options.density = density == "summation"              ? DensityForm::summation
                     : density == "normalised_summation" ? DensityForm::normalised
                                                         : DensityForm::evolved;
   options.continuity.choose(std::max(0, terms::ContinuityForms::index_of(density)));
-  options.pressure.choose(terms::PressureForms::index_of(read_form<terms::PressureForms>(scheme.table("pressure"), Preset::pressure)));
+  options.pressure.choose(
+      terms::PressureForms::index_of(read_form<terms::PressureForms>(scheme.table("pressure"), Preset::pressure)));
   options.viscosity = read_optional<terms::ViscosityForms>(scheme.table("viscosity"), Preset::viscosity);
   options.diffusion = read_optional<terms::DiffusionForms>(scheme.table("density_diffusion"), Preset::diffusion);
   terms::ViscosityMonaghan artificial;
   artificial.alpha = Preset::alpha;
-  options.artificial = read_optional<terms::ArtificialViscosities>(scheme.table("artificial_viscosity"), Preset::artificial, artificial);
-  options.xsph = read_optional<terms::VelocityCorrections>(scheme.table("xsph"), Preset::xsph, terms::Xsph{Preset::epsilon});
+  options.artificial =
+      read_optional<terms::ArtificialViscosities>(scheme.table("artificial_viscosity"), Preset::artificial, artificial);
+  options.xsph =
+      read_optional<terms::VelocityCorrections>(scheme.table("xsph"), Preset::xsph, terms::Xsph{Preset::epsilon});
   options.strain_dissipation = root.table("output").flag("strain_dissipation", false);
 
   const Table wall = scheme.table("wall");
@@ -120,11 +131,13 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   choice.restitution = wall.in_range("restitution", unit::one, {0, 1}, 1.0);
   const std::int64_t layers = wall.integer("layers", Preset::wall_layers);
   if (layers < 0 || layers > 100)
-    wall.fail("layers", fmt::format("a wall cannot have {} layers", layers), {}, "give 1 to 100, or 0 for as many as the support needs");
+    wall.fail("layers", fmt::format("a wall cannot have {} layers", layers), {},
+              "give 1 to 100, or 0 for as many as the support needs");
   choice.wall_layers = static_cast<int>(layers);
   if (options.wall_density == walls::WallDensity::modified) {
     choice.wall_reference = wall.choice("reference", {"auto", "rho_0", "given"}, std::string(Preset::wall_reference));
-    if (choice.wall_reference == "given") choice.wall_reference_density = wall.positive("reference_density", unit::density);
+    if (choice.wall_reference == "given")
+      choice.wall_reference_density = wall.positive("reference_density", unit::density);
   }
 
   const Table time = root.table("time");
@@ -147,7 +160,8 @@ template <int N>
 SchemeChoice read_scheme(const Table& root, double spacing, WeaklyCompressibleOptions<N>& options) {
   const Table scheme = root.table("scheme");
   const int preset = presets::Presets::index_of(scheme.choice("name", presets::Presets::names(), "recommended"));
-  SchemeChoice choice = presets::Presets::visit(preset, [&](auto p) { return read_with_preset(root, spacing, options, p); });
+  SchemeChoice choice =
+      presets::Presets::visit(preset, [&](auto p) { return read_with_preset(root, spacing, options, p); });
   choice.preset = preset;
   std::vector<double> none(N, 0.0);
   choice.gravity = root.quantities("gravity", unit::acceleration, N, none);
@@ -175,9 +189,11 @@ materials::Material read_material(const Table& table, const SchemeChoice& choice
   });
   const double c = material.sound_speed(material.rho_0);
   if (c < 9.999 * expected_speed)
-    warnings.push_back(fmt::format("{}: the speed of sound of '{}' is {:.4g} m/s, only {:.2g} times the expected velocity of {:.4g} m/s; density will "
-                                   "vary by more than 1 % (ten times or more is usual: {:.4g} m/s)",
-                                   eos.where().text(), material.name, c, c / expected_speed, expected_speed, sound_speed));
+    warnings.push_back(
+        fmt::format("{}: the speed of sound of '{}' is {:.4g} m/s, only {:.2g} times the expected velocity of {:.4g} "
+                    "m/s; density will "
+                    "vary by more than 1 % (ten times or more is usual: {:.4g} m/s)",
+                    eos.where().text(), material.name, c, c / expected_speed, expected_speed, sound_speed));
   return material;
 }
 

@@ -9,25 +9,26 @@ namespace undine {
 
 /// What [scheme], [time] and gravity say, apart from particles.
 struct SchemeChoice {
-  int preset = 0;                     ///< index in presets::Presets
+  int preset = 0;  ///< index in presets::Presets
   std::string integrator;
   StepLimits limits;
-  double end = 0;                     ///< s
-  bool reflects = false;              ///< elastic surfaces are wanted
+  double end = 0;         ///< s
+  bool reflects = false;  ///< elastic surfaces are wanted
   bool wall_particles = false;
   std::string wall_reference;         ///< "auto", "rho_0" or empty: `wall_reference_density`
   double wall_reference_density = 0;  ///< kg/m^3
   double restitution = 1;
-  int wall_layers = 0;                ///< 0: as many as the support needs
-  std::vector<double> gravity;        ///< m/s^2, one per dimension
+  int wall_layers = 0;          ///< 0: as many as the support needs
+  std::vector<double> gravity;  ///< m/s^2, one per dimension
 };
 
-/// Reads the scheme into options; `spacing` in m. Materials, reflector and body force are left to the particles' set-up.
+/// Reads the scheme into options; `spacing` in m. Materials, reflector and body force are left to the particles'
+/// set-up.
 template <int N>
 SchemeChoice read_scheme(const Table& root, double spacing, WeaklyCompressibleOptions<N>& options);
 
-/// A material from a fluid's table: density, viscosity and [fluid.eos]. `expected_speed` (m/s) gives the default speed of sound, ten
-/// times as large; warnings are appended where the case's own is smaller.
+/// A material from a fluid's table: density, viscosity and [fluid.eos]. `expected_speed` (m/s) gives the default speed
+/// of sound, ten times as large; warnings are appended where the case's own is smaller.
 materials::Material read_material(const Table& table, const SchemeChoice& choice, double expected_speed,
                                   std::vector<std::string>& warnings);
 

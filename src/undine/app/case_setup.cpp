@@ -1,12 +1,12 @@
 #include "undine/app/case_setup.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <memory>
 #include <set>
+
+#include <fmt/format.h>
 
 #include "undine/app/case_particles.hpp"
 #include "undine/app/case_shapes.hpp"
@@ -55,7 +55,10 @@ class Reader {
     setup_.choice = read_scheme<N>(root_, setup_.spacing, setup_.options);
     const auto fluids = root_.tables("fluid");
     if (fluids.empty())
-      throw InputError({.what = "the case has no fluid", .where = root_.where(), .why = "nothing would move", .fix = "add a [[fluid]] with a shape"});
+      throw InputError({.what = "the case has no fluid",
+                        .where = root_.where(),
+                        .why = "nothing would move",
+                        .fix = "add a [[fluid]] with a shape"});
     for (const Table& t : fluids) read_fluid_points(t);
     for (const Table& t : root_.tables("wall")) read_wall(t);
     check_names();
@@ -81,7 +84,8 @@ class Reader {
     body.given = std::move(list.given);
   }
 
-  /// Refuses a shape whose filling would not end. `layers` of a wall lie on one side of its surface; 0: the shape is filled.
+  /// Refuses a shape whose filling would not end. `layers` of a wall lie on one side of its surface; 0: the shape is
+  /// filled.
   void check_size(const Table& table, const Shape& shape, int layers = 0, Side side = Side::outside) const {
     const Bounds box = shape.bounds();
     for (int k = 0; k < N; ++k)
@@ -95,12 +99,18 @@ class Reader {
   }
 
   void read_fluid_points(const Table& table) {
-    Body body{table.text("name", fmt::format("fluid{}", bodies_.size())), Group::fluid, static_cast<int>(bodies_.size()), {}, {}, table};
+    Body body{table.text("name", fmt::format("fluid{}", bodies_.size())),
+              Group::fluid,
+              static_cast<int>(bodies_.size()),
+              {},
+              {},
+              table};
     if (table.has("particles")) {
       take_list(body);
       unused(table, {"shape", "lattice", "anchor", "jitter", "seed"});
     } else {
-      const Lattice lattice = table.choice("lattice", {"cubic", "hexagonal"}, "cubic") == "cubic" ? Lattice::cubic : Lattice::hexagonal;
+      const Lattice lattice =
+          table.choice("lattice", {"cubic", "hexagonal"}, "cubic") == "cubic" ? Lattice::cubic : Lattice::hexagonal;
       LatticeSpec spec{setup_.spacing, N, lattice, {}};
       if (table.has("anchor")) spec.anchor = read_point(table, "anchor", N);
       const ShapePtr shape = read_shape(table.table("shape"), N);
@@ -115,7 +125,8 @@ class Reader {
       unused(table, {"seed"});
     }
     if (body.points.empty())
-      throw InputError({.what = fmt::format("fluid '{}' has no particles", body.name), .where = table.where(),
+      throw InputError({.what = fmt::format("fluid '{}' has no particles", body.name),
+                        .where = table.where(),
                         .why = fmt::format("no lattice point of spacing {:.4g} m lies in its shape", setup_.spacing),
                         .fix = "make the shape larger or the spacing smaller"});
     check_room(table, static_cast<double>(body.points.size()), setup_.spacing);
@@ -145,12 +156,15 @@ class Reader {
     }
   }
 
-  int layers_needed() const { return static_cast<int>(std::ceil(setup_.options.support.uniform / setup_.spacing - 1e-9)); }
+  int layers_needed() const {
+    return static_cast<int>(std::ceil(setup_.options.support.uniform / setup_.spacing - 1e-9));
+  }
 
   void read_wall(const Table& table) {
     Body body{table.text("name", fmt::format("wall{}", bodies_.size())), Group::wall, 0, {}, {}, table};
     const Table shape_table = table.table("shape");
-    const Side fluid_side = table.choice("fluid", {"inside", "outside"}, "inside") == "inside" ? Side::inside : Side::outside;
+    const Side fluid_side =
+        table.choice("fluid", {"inside", "outside"}, "inside") == "inside" ? Side::inside : Side::outside;
     const std::vector<std::string> faces{"x-", "x+", "y-", "y+", "z-", "z+"};
     const FaceSet open = parse_faces(table.choices("open", {faces.begin(), faces.begin() + 2 * N}, {}));
     const bool has_list = table.has("particles");
@@ -180,20 +194,24 @@ class Reader {
     const bool sheet = table.flag("sheet", choice.wall_layers == 1);
     if (sheet) {
       const auto box = shape.as_box();
-      if (!box) table.fail("sheet", "a sheet of wall particles needs a box", "points are laid on the box's faces", "set sheet = false or use a box");
+      if (!box)
+        table.fail("sheet", "a sheet of wall particles needs a box", "points are laid on the box's faces",
+                   "set sheet = false or use a box");
       return fill_face_sheet(*box, {setup_.spacing, N, open});
     }
     const int needed = layers_needed();
     const std::int64_t asked = table.integer("layers", choice.wall_layers > 0 ? choice.wall_layers : needed);
     if (asked > most_layers)
-      table.fail("layers", fmt::format("a wall of {} layers is thicker than any support", asked), fmt::format("{} layers span it", needed),
-                 fmt::format("set layers = {}, or leave it out", needed));
+      table.fail("layers", fmt::format("a wall of {} layers is thicker than any support", asked),
+                 fmt::format("{} layers span it", needed), fmt::format("set layers = {}, or leave it out", needed));
     const int layers = static_cast<int>(std::max<std::int64_t>(asked, 0));
     if (layers < 1 || (layers < needed && !table.flag("thin", choice.wall_layers > 0)))
-      table.fail("layers", fmt::format("a wall of {} layer{} is thinner than the support", layers, layers == 1 ? "" : "s"),
-                 fmt::format("the support radius {:.4g} m spans {} spacings of {:.4g} m; fluid would feel what is behind the wall",
-                             setup_.options.support.uniform, needed, setup_.spacing),
-                 fmt::format("set layers = {}, leave it out, or say thin = true if this is meant", needed));
+      table.fail(
+          "layers", fmt::format("a wall of {} layer{} is thinner than the support", layers, layers == 1 ? "" : "s"),
+          fmt::format(
+              "the support radius {:.4g} m spans {} spacings of {:.4g} m; fluid would feel what is behind the wall",
+              setup_.options.support.uniform, needed, setup_.spacing),
+          fmt::format("set layers = {}, leave it out, or say thin = true if this is meant", needed));
     const Side wall_side = fluid_side == Side::inside ? Side::outside : Side::inside;
     check_size(table, shape, layers, wall_side);
     return with_place(table, [&] { return fill_shell(shape, {setup_.spacing, layers, wall_side, N, 0.5, open}); });
@@ -204,7 +222,8 @@ class Reader {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if (bodies_[b].group == Group::wall) setup_.bodies.emplace(bodies_[b].name, static_cast<int>(b));
       if (!names.insert(bodies_[b].name).second)
-        bodies_[b].table.fail("name", fmt::format("two bodies are named '{}'", bodies_[b].name), {}, "give each its own name");
+        bodies_[b].table.fail("name", fmt::format("two bodies are named '{}'", bodies_[b].name), {},
+                              "give each its own name");
     }
   }
 
@@ -218,12 +237,15 @@ class Reader {
       wrapped.push_back(body.points);
       for (Vec3& p : wrapped.back()) p = widen<N>(setup_.domain.wrapped(narrow<N>(p)));
     }
-    const auto points = [&](std::size_t b) -> const std::vector<Vec3>& { return periodic ? wrapped[b] : bodies_[b].points; };
+    const auto points = [&](std::size_t b) -> const std::vector<Vec3>& {
+      return periodic ? wrapped[b] : bodies_[b].points;
+    };
     const double closest = 0.5 * setup_.spacing;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if (bodies_[b].may_coincide) complain_of(check_overlap(points(b), closest), bodies_[b], bodies_[b]);
       for (std::size_t a = 0; a < b; ++a)
-        if (bodies_[a].group == Group::fluid) complain_of(check_overlap(points(a), points(b), closest), bodies_[a], bodies_[b]);
+        if (bodies_[a].group == Group::fluid)
+          complain_of(check_overlap(points(a), points(b), closest), bodies_[a], bodies_[b]);
     }
   }
 
@@ -233,23 +255,28 @@ class Reader {
     for (const Vec3& p : body.points) box.include(p);
     for (int k = 0; k < N; ++k)
       if (domain.periodic[k] && box.hi[k] - box.lo[k] > domain.length(k))
-        throw InputError({.what = fmt::format("'{}' is longer than the period along {}", body.name, "xyz"[k]), .where = body.table.where(),
-                          .why = fmt::format("its particles reach from {:.4g} to {:.4g} m, the period is {:.4g} m: it would lie on its own image", box.lo[k],
-                                             box.hi[k], domain.length(k)),
-                          .fix = "shorten it to the period, name its two ends there in 'open', or widen [domain]"});
+        throw InputError(
+            {.what = fmt::format("'{}' is longer than the period along {}", body.name, "xyz"[k]),
+             .where = body.table.where(),
+             .why = fmt::format(
+                 "its particles reach from {:.4g} to {:.4g} m, the period is {:.4g} m: it would lie on its own image",
+                 box.lo[k], box.hi[k], domain.length(k)),
+             .fix = "shorten it to the period, name its two ends there in 'open', or widen [domain]"});
   }
 
   void complain_of(const std::optional<Overlap>& overlap, const Body& a, const Body& b) const {
     if (!overlap) return;
     const Vec3 p = a.points[overlap->a];
     if (&a == &b)
-      throw InputError({.what = fmt::format("two particles of '{}' nearly coincide", a.name), .where = a.table.where(),
-                        .why = fmt::format("they are {:.3g} m apart near ({:.4g}, {:.4g}, {:.4g}) m, spacing {:.4g} m", overlap->distance, p[0], p[1], p[2],
-                                           setup_.spacing),
+      throw InputError({.what = fmt::format("two particles of '{}' nearly coincide", a.name),
+                        .where = a.table.where(),
+                        .why = fmt::format("they are {:.3g} m apart near ({:.4g}, {:.4g}, {:.4g}) m, spacing {:.4g} m",
+                                           overlap->distance, p[0], p[1], p[2], setup_.spacing),
                         .fix = "remove one of them from the list, or lessen 'jitter'"});
-    throw InputError({.what = fmt::format("'{}' and '{}' overlap", a.name, b.name), .where = b.table.where(),
-                      .why = fmt::format("particles {:.3g} m apart near ({:.4g}, {:.4g}, {:.4g}) m, spacing {:.4g} m", overlap->distance, p[0], p[1], p[2],
-                                         setup_.spacing),
+    throw InputError({.what = fmt::format("'{}' and '{}' overlap", a.name, b.name),
+                      .where = b.table.where(),
+                      .why = fmt::format("particles {:.3g} m apart near ({:.4g}, {:.4g}, {:.4g}) m, spacing {:.4g} m",
+                                         overlap->distance, p[0], p[1], p[2], setup_.spacing),
                       .fix = "move one of them, cut it out with a 'difference', or align their edges to the spacing"});
   }
 
@@ -282,17 +309,22 @@ class Reader {
       domain.low[k] = low[k];
       domain.high[k] = high[k];
       domain.periodic[k] = std::ranges::count(periodic, axes[k]) > 0;
-      if (!(high[k] > low[k])) table.fail("high", fmt::format("the domain is empty along {}", axes[k]), {}, "make high larger than low");
+      if (!(high[k] > low[k]))
+        table.fail("high", fmt::format("the domain is empty along {}", axes[k]), {}, "make high larger than low");
       const double reach = setup_.options.support.uniform * (1 + setup_.options.neighbours.skin);
       if (domain.periodic[k] && domain.length(k) < 2 * reach)
-        table.fail("high", fmt::format("the period along {} is {:.4g} m", axes[k], domain.length(k)),
-                   fmt::format("a particle would see its own image: twice the support with skin is {:.4g} m", 2 * reach), "widen the domain or lessen the support");
+        table.fail(
+            "high", fmt::format("the period along {} is {:.4g} m", axes[k], domain.length(k)),
+            fmt::format("a particle would see its own image: twice the support with skin is {:.4g} m", 2 * reach),
+            "widen the domain or lessen the support");
     }
     for (const auto& body : bodies_)
       for (const auto& p : body.points)
         if (!domain.contains(narrow<N>(p)))
-          throw InputError({.what = fmt::format("'{}' begins outside the domain", body.name), .where = table.exists() ? table.where() : body.table.where(),
-                            .why = fmt::format("a particle at ({:.4g}, {:.4g}, {:.4g}) m", p[0], p[1], p[2]), .fix = "widen [domain] or move the body"});
+          throw InputError({.what = fmt::format("'{}' begins outside the domain", body.name),
+                            .where = table.exists() ? table.where() : body.table.where(),
+                            .why = fmt::format("a particle at ({:.4g}, {:.4g}, {:.4g}) m", p[0], p[1], p[2]),
+                            .fix = "widen [domain] or move the body"});
   }
 
   /// The speed that gravity can give over the fluid's height, or the initial speed; sets the default speed of sound.
@@ -310,15 +342,18 @@ class Reader {
       }
     if (highest > lowest) speed = std::max(speed, std::sqrt(2 * (highest - lowest)));
     setup_.expected_speed = root_.positive("expected_speed", unit::velocity, std::max(speed, 1e-6));
-    for (const Table& table : fluids) setup_.options.materials.push_back(read_material(table, setup_.choice, setup_.expected_speed, setup_.warnings));
+    for (const Table& table : fluids)
+      setup_.options.materials.push_back(read_material(table, setup_.choice, setup_.expected_speed, setup_.warnings));
     // E_pot counts from the lowest place that fluid or wall reaches.
     const double g_sq = norm_sq(g);
     if (g_sq > 0) setup_.potential_origin = -(lowest / g_sq) * g;
   }
 
   [[noreturn]] static void not_finite(const Table& table, std::string_view key, std::string_view name, const Vec3& p) {
-    table.fail(key, fmt::format("'{}' is not a finite number at ({:.4g}, {:.4g}, {:.4g}) m", name, p[0], p[1], p[2]), "a particle begins there",
-               "look for a division by 0 or the root or logarithm of a negative number; if(condition, a, b) takes either value");
+    table.fail(key, fmt::format("'{}' is not a finite number at ({:.4g}, {:.4g}, {:.4g}) m", name, p[0], p[1], p[2]),
+               "a particle begins there",
+               "look for a division by 0 or the root or logarithm of a negative number; if(condition, a, b) takes "
+               "either value");
   }
 
   Vec<N> velocity(const Body& body, std::size_t i) {
@@ -344,7 +379,8 @@ class Reader {
   void fill_store() {
     auto& store = setup_.store;
     const auto& options = setup_.options;
-    store.allocate(Fields<field::x, field::v, field::rho, field::h, field::m, field::rho_0, field::rho_wall, field::mu, field::x_list>::set());
+    store.allocate(Fields<field::x, field::v, field::rho, field::h, field::m, field::rho_0, field::rho_wall, field::mu,
+                          field::x_list>::set());
     for (const Group group : all_groups)  // ids follow the order of bodies within each group
       for (std::size_t b = 0; b < bodies_.size(); ++b) {
         Body& body = bodies_[b];
@@ -368,8 +404,8 @@ class Reader {
           if (!std::isfinite(p)) not_finite(body.table, "pressure", "pressure", body.points[i]);
           const double density = material.density(p);
           if (!std::isfinite(density) || density <= 0)
-            body.table.fail("pressure", fmt::format("no density belongs to a pressure of {:.4g} Pa", p), "the equation of state cannot be that low",
-                            "raise the pressure or the speed of sound");
+            body.table.fail("pressure", fmt::format("no density belongs to a pressure of {:.4g} Pa", p),
+                            "the equation of state cannot be that low", "raise the pressure or the speed of sound");
           store.template get<field::rho>()[s] = given("rho", density);
           store.template get<field::m>()[s] = given("m", mass);
           store.template get<field::h>()[s] = options.support.uniform;
@@ -386,8 +422,11 @@ class Reader {
       const double surface = body.table.quantity("surface", unit::length);
       const Vec<N> g = setup_.options.gravity;
       const double strength = norm(g);
-      if (strength == 0) body.table.fail("surface", "a hydrostatic start needs gravity", {}, "set gravity or leave 'surface' out");
-      return [=, &material](const Vec3& p) { return material.rho_0 * std::max(0.0, strength * surface + dot(g, narrow<N>(p))); };
+      if (strength == 0)
+        body.table.fail("surface", "a hydrostatic start needs gravity", {}, "set gravity or leave 'surface' out");
+      return [=, &material](const Vec3& p) {
+        return material.rho_0 * std::max(0.0, strength * surface + dot(g, narrow<N>(p)));
+      };
     }
     const double rest = material.pressure(material.rho_0);
     const Expression formula = body.table.expression("pressure", Expression(rest));
@@ -401,7 +440,8 @@ class Reader {
     for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
       const Vec3 p = widen<N>(setup_.store.template get<field::x>()[i]);
       for (int k = 0; k < N; ++k)
-        if (!std::isfinite(formulas[k](p[0], p[1], p[2], 0))) not_finite(root_, "body_force", fmt::format("body_force[{}]", k), p);
+        if (!std::isfinite(formulas[k](p[0], p[1], p[2], 0)))
+          not_finite(root_, "body_force", fmt::format("body_force[{}]", k), p);
     }
     setup_.options.body_force = [formulas](const Vec<N>& x, double t) {
       const Vec3 p = widen<N>(x);
@@ -435,8 +475,8 @@ class Reader {
     }
   }
 
-  /// rho_wref of a modified-density wall particle. "auto": what fluid at rest on the wall lacks to `rest`, which is the wall
-  /// particles' own sum, less what a whole lattice sums to beyond rho_0.
+  /// rho_wref of a modified-density wall particle. "auto": what fluid at rest on the wall lacks to `rest`, which is the
+  /// wall particles' own sum, less what a whole lattice sums to beyond rho_0.
   double wall_reference(double rho_0, double rest, double own_sum, double lattice) const {
     if (setup_.choice.wall_reference == "given") return setup_.choice.wall_reference_density;
     return setup_.choice.wall_reference == "auto" ? own_sum + rest - rho_0 * lattice : rho_0;
@@ -451,7 +491,9 @@ class Reader {
     const std::size_t first = setup_.store.range(Group::wall).begin;
     const auto x = setup_.store.template get<field::x>();
     double sum = 0;
-    for (const auto j : neighbours) sum += setup_.store.template get<field::m>()[first + j] * kernel(setup_.domain.nearest_image(x[i] - x[first + j]));
+    for (const auto j : neighbours)
+      sum +=
+          setup_.store.template get<field::m>()[first + j] * kernel(setup_.domain.nearest_image(x[i] - x[first + j]));
     return sum;
   }
 
@@ -484,7 +526,8 @@ class Reader {
 
   void connect_reflector() {
     if (surface_->empty()) return;
-    setup_.options.reflector = [surface = surface_](const Vec<N>& from, const Vec<N>& to, const Vec<N>& v) -> Bounce<N> {
+    setup_.options.reflector = [surface = surface_](const Vec<N>& from, const Vec<N>& to,
+                                                    const Vec<N>& v) -> Bounce<N> {
       const Vec3 a = widen<N>(from), b = widen<N>(to);
       if (surface->clear(a, b)) return {to, v};
       const Reflection r = surface->reflect(a, b, widen<N>(v));
@@ -494,9 +537,12 @@ class Reader {
     for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
       const Vec3 p = widen<N>(setup_.store.template get<field::x>()[i]);
       if (surface_->depth(p) >= 0) continue;
-      throw InputError({.what = "fluid begins on the wrong side of a wall", .where = root_.where("wall"),
-                        .why = fmt::format("a particle at ({:.4g}, {:.4g}, {:.4g}) m is {:.3g} m inside it", p[0], p[1], p[2], -surface_->depth(p)),
-                        .fix = "move the fluid, cut the wall out with a 'difference', or set fluid = \"inside\"/\"outside\" on the wall"});
+      throw InputError({.what = "fluid begins on the wrong side of a wall",
+                        .where = root_.where("wall"),
+                        .why = fmt::format("a particle at ({:.4g}, {:.4g}, {:.4g}) m is {:.3g} m inside it", p[0], p[1],
+                                           p[2], -surface_->depth(p)),
+                        .fix = "move the fluid, cut the wall out with a 'difference', or set fluid = "
+                               "\"inside\"/\"outside\" on the wall"});
     }
   }
 

@@ -13,7 +13,8 @@ std::vector<ShapePtr> read_parts(const Table& table, std::string_view key, int d
   std::vector<ShapePtr> parts;
   for (const Table& part : table.tables(key)) parts.push_back(read_shape(part, dimensions));
   if (parts.empty())
-    table.fail(key, "'" + std::string(key) + "' names no shapes", {}, "give a list of shapes: " + std::string(key) + " = [{ type = \"box\", ... }]");
+    table.fail(key, "'" + std::string(key) + "' names no shapes", {},
+               "give a list of shapes: " + std::string(key) + " = [{ type = \"box\", ... }]");
   return parts;
 }
 
@@ -24,7 +25,8 @@ ShapePtr sphere(const Table& t, int dimensions) {
   return make_sphere(read_point(t, "centre", dimensions), t.positive("radius", unit::length));
 }
 ShapePtr cylinder(const Table& t, int dimensions) {
-  return make_cylinder(read_point(t, "from", dimensions), read_point(t, "to", dimensions), t.positive("radius", unit::length));
+  return make_cylinder(read_point(t, "from", dimensions), read_point(t, "to", dimensions),
+                       t.positive("radius", unit::length));
 }
 ShapePtr half_space(const Table& t, int dimensions) {
   const auto n = t.quantities("normal", unit::one, dimensions);
@@ -55,9 +57,15 @@ ShapePtr difference(const Table& t, int dimensions) {
 }
 
 /// The one list of shapes.
-const std::vector<std::pair<std::string, ShapePtr (*)(const Table&, int)>> shape_readers{
-    {"box", box},   {"sphere", sphere},  {"cylinder", cylinder},         {"half_space", half_space}, {"polygon", polygon},
-    {"mesh", mesh}, {"union", union_of}, {"intersection", intersection}, {"difference", difference}};
+const std::vector<std::pair<std::string, ShapePtr (*)(const Table&, int)>> shape_readers{{"box", box},
+                                                                                         {"sphere", sphere},
+                                                                                         {"cylinder", cylinder},
+                                                                                         {"half_space", half_space},
+                                                                                         {"polygon", polygon},
+                                                                                         {"mesh", mesh},
+                                                                                         {"union", union_of},
+                                                                                         {"intersection", intersection},
+                                                                                         {"difference", difference}};
 
 }  // namespace
 

@@ -55,11 +55,13 @@ class Probe : public Gauge<N> {
   static constexpr Info info{"probe", "Pressure, velocity or density at a point",
                              "f(x) = sum_b V_b f_b W_b / sum_b V_b W_b; 0 where sum_b V_b W_b < wet", "Shepard (1968)"};
 
-  Probe(const Table& table, const GaugeContext<N>&)
+  Probe(const Table& table, const GaugeContext<N>& context)
       : at_(read_point<N>(table, "at")),
         fields_(table.choices("fields", {"pressure", "velocity", "density"}, {"pressure"})),
         shepard_(table.flag("shepard", true)),
         wet_(table.in_range("wet", unit::one, {0, 1}, 0.1)) {
+    if (!context.domain.contains(at_))
+      table.fail("at", "the probe is outside the domain", "no particle can come there", "move it, or widen [domain]");
     if (fields_.empty()) table.fail("fields", "the probe reads nothing", {}, "name a field, such as \"pressure\"");
   }
 
@@ -182,6 +184,9 @@ class WallForce : public Gauge<N> {
 
   WallForce(const Table& table, const GaugeContext<N>& context)
       : where_(table.where()), about_(read_point<N>(table, "about", Vec<N>{})) {
+    if (context.bodies.empty())
+      table.fail("type", "there are no wall particles to push on", "force is summed over wall particles",
+                 "choose a wall treatment with particles, or leave this gauge out");
     if (!table.has("wall")) return;
     std::vector<std::string> names;
     for (const auto& [name, body] : context.bodies) names.push_back(name);

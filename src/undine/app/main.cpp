@@ -1,13 +1,14 @@
-#include <fmt/format.h>
+#include <algorithm>
+#include <cstdio>
 
 #include <CLI/CLI.hpp>
-
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "undine/app/bench.hpp"
 #include "undine/app/lists.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/core/error.hpp"
+#include "undine/core/nearest.hpp"
 #include "undine/io/checksum.hpp"
 #include "undine/io/run_record.hpp"
 
@@ -18,7 +19,7 @@ using namespace undine;
 void add_case_options(CLI::App& command, RunOptions& options) {
   command.add_option("case", options.file, "case file (TOML)")->required();
   command.add_option("--set", options.sets, "override a key: --set time.end=\"2 s\"")->allow_extra_args(false);
-  command.add_option("--threads", options.threads, "threads; 0: all cores")->check(CLI::NonNegativeNumber);
+  command.add_option("--threads", options.threads, "threads; 0: all cores")->check(CLI::Range(0, 1024));
   command.add_option("--out", options.out, "output folder");
 }
 
@@ -26,7 +27,8 @@ int execute(int argc, char** argv) {
   CLI::App app{"Undine: smoothed particle hydrodynamics, every ingredient chosen in a case file"};
   app.set_version_flag("--version", std::string(program_version()));
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 130 interrupted (checkpoint written).");
+  app.footer(
+      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 130 interrupted (checkpoint written).");
 
   RunOptions run_options;
   bool quiet = false, json = false;
@@ -51,13 +53,22 @@ int execute(int argc, char** argv) {
   show->add_option("name", name, "name, or axis/name")->required();
 
   std::filesystem::path file;
-  auto* sum = app.add_subcommand("checksum", "hash over all fields of a snapshot or checkpoint, in order of particle id");
+  auto* sum =
+      app.add_subcommand("checksum", "hash over all fields of a snapshot or checkpoint, in order of particle id");
   sum->add_option("file", file)->required();
 
   BenchOptions bench_options;
   auto* bench = app.add_subcommand("bench", "time the hot loops on this machine");
   add_bench_options(*bench, bench_options);
 
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string> commands;
+    for (const auto* command : app.get_subcommands({})) commands.push_back(command->get_name());
+    if (std::ranges::count(commands, argv[1]) == 0)
+      throw InputError({.what = fmt::format("there is no command '{}'", shortened(argv[1], 40)),
+                        .why = "commands are " + listed(commands),
+                        .fix = did_you_mean(argv[1], commands) + " see `undine --help`"});
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,14 +1,13 @@
-#include <fmt/format.h>
-#include <omp.h>
-#include <unistd.h>
-
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <omp.h>
+#include <unistd.h>
 
 #include "undine/app/case_setup.hpp"
 #include "undine/app/gauges.hpp"
@@ -34,7 +33,9 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 std::string case_hash(const Document& document) {
   Hash64 hash;
   for (const auto& [key, value] : document.resolved()) {
-    if (key.starts_with("output") || key.starts_with("gauge") || key == "time.end" || key == "time.largest_step" || key == "title") continue;
+    if (key.starts_with("output") || key.starts_with("gauge") || key == "time.end" || key == "time.largest_step" ||
+        key == "title")
+      continue;
     const std::string line = key + "=" + value + "\n";
     hash.add_values(std::span<const char>(line));
   }
@@ -65,8 +66,9 @@ class Run {
         options_(options),
         setup_(read_case<N>(document.root())),
         output_(read_output(document.root(), options, setup_.choice.end)),
-        gauges_(document.root(), GaugeContext<N>{setup_.spacing, output_.energies > 0 ? output_.energies : setup_.choice.end / 200,
-                                                 setup_.options.gravity, setup_.domain, setup_.bodies, setup_.body_of_id}) {
+        gauges_(document.root(),
+                GaugeContext<N>{setup_.spacing, output_.energies > 0 ? output_.energies : setup_.choice.end / 200,
+                                setup_.options.gravity, setup_.domain, setup_.bodies, setup_.body_of_id}) {
     document.finish();
     hash_ = case_hash(document);
   }
@@ -77,21 +79,25 @@ class Run {
     const auto& store = setup_.store;
     const auto preset = presets::Presets::info(setup_.choice.preset).name;
     fmt::print("{}\n", setup_.title.empty() ? options_.file.string() : setup_.title);
-    fmt::print("  particles   {} fluid, {} wall, spacing {:.4g} m, support {:.4g} m ({:.3g} spacings)\n", store.range(Group::fluid).size(),
-               store.range(Group::wall).size(), setup_.spacing, o.support.uniform, o.support.uniform / setup_.spacing);
-    fmt::print("  scheme      {}: kernel {}, pressure {}, {}{}{}{}{}\n", preset, o.kernels[0].info().name, o.pressure.info().name,
+    fmt::print("  particles   {} fluid, {} wall, spacing {:.4g} m, support {:.4g} m ({:.3g} spacings)\n",
+               store.range(Group::fluid).size(), store.range(Group::wall).size(), setup_.spacing, o.support.uniform,
+               o.support.uniform / setup_.spacing);
+    fmt::print("  scheme      {}: kernel {}, pressure {}, {}{}{}{}{}\n", preset, o.kernels[0].info().name,
+               o.pressure.info().name,
                o.density == DensityForm::evolved ? std::string(o.continuity.info().name) : "summation",
                o.viscosity ? fmt::format(", viscosity {}", o.viscosity->info().name) : "",
                o.artificial ? fmt::format(", artificial viscosity {}", o.artificial->info().name) : "",
                o.diffusion ? fmt::format(", diffusion {}", o.diffusion->info().name) : "", o.xsph ? ", XSPH" : "");
-    fmt::print("  backend     {} x {}, pairs in {}, search {}\n", backend_names[static_cast<int>(o.backend.kind)], omp_get_max_threads(),
-               precision_names[static_cast<int>(o.backend.precision)], o.neighbours.search);
+    fmt::print("  backend     {} x {}, pairs in {}, search {}\n", backend_names[static_cast<int>(o.backend.kind)],
+               omp_get_max_threads(), precision_names[static_cast<int>(o.backend.precision)], o.neighbours.search);
     for (const auto& material : o.materials)
-      fmt::print("  material    {}: rho_0 {:.6g} kg/m^3, c_0 {:.4g} m/s ({:.3g} x expected speed), mu {:.3g} Pa s\n", material.name, material.rho_0,
-                 material.sound_speed(material.rho_0), material.sound_speed(material.rho_0) / setup_.expected_speed, material.mu);
+      fmt::print("  material    {}: rho_0 {:.6g} kg/m^3, c_0 {:.4g} m/s ({:.3g} x expected speed), mu {:.3g} Pa s\n",
+                 material.name, material.rho_0, material.sound_speed(material.rho_0),
+                 material.sound_speed(material.rho_0) / setup_.expected_speed, material.mu);
     const auto& limits = setup_.choice.limits;
     fmt::print("  time        to {:.6g} s, {}, {}\n", setup_.choice.end, setup_.choice.integrator,
-               limits.fixed > 0 ? fmt::format("fixed step {:.4g} s", limits.fixed) : fmt::format("Courant number {:.3g}", limits.courant));
+               limits.fixed > 0 ? fmt::format("fixed step {:.4g} s", limits.fixed)
+                                : fmt::format("Courant number {:.3g}", limits.courant));
     for (const auto& warning : setup_.warnings) fmt::print("  warning     {}\n", warning);
     std::fflush(stdout);
   }
@@ -100,9 +106,13 @@ class Run {
     const auto start = Clock::now();
     if (options_.resume) checkpoint_ = Checkpoints(output_.folder).read_newest();
     if (checkpoint_ && checkpoint_->state.texts.at("case") != hash_)
-      throw InputError({.what = "the checkpoint belongs to another case", .where = {output_.folder.string()},
-                        .why = "since it was written, keys other than time.end, output and gauges changed", .fix = "use the same case file and --set words, or run without --resume"});
-    prepare_output_folder(output_.folder, options_.resume ? FolderMode::resume : options_.overwrite ? FolderMode::overwrite : FolderMode::fresh);
+      throw InputError({.what = "the checkpoint belongs to another case",
+                        .where = {output_.folder.string()},
+                        .why = "since it was written, keys other than time.end, output and gauges changed",
+                        .fix = "use the same case file and --set words, or run without --resume"});
+    prepare_output_folder(output_.folder, options_.resume      ? FolderMode::resume
+                                          : options_.overwrite ? FolderMode::overwrite
+                                                               : FolderMode::fresh);
     describe();
     make_flow();
     print_plan();
@@ -113,7 +123,8 @@ class Run {
                                     : SeriesFile::create(output_.folder / "particles.vtkhdf.series");
     if (checkpoint_) {
       gauges_.resume(output_.folder, resumed_at);
-      energies.set_start(checkpoint_->state.reals.at("energy at start"), checkpoint_->state.reals.at("potential at start"));
+      energies.set_start(checkpoint_->state.reals.at("energy at start"),
+                         checkpoint_->state.reals.at("potential at start"));
     } else {
       gauges_.create(output_.folder);
       const Energies e = flow_->energies();
@@ -195,7 +206,8 @@ class Run {
     fmt::print("  evaluation  ");
     const auto& stages = flow_->plan().stages();
     for (std::size_t k = 0; k < stages.size(); ++k) fmt::print("{}{}", k ? " -> " : "", stages[k].name);
-    fmt::print("\n  memory      {:.1f} MB fields, {:.1f} MB neighbour lists\n  output      {}\n", static_cast<double>(flow_->store().bytes()) * 1e-6,
+    fmt::print("\n  memory      {:.1f} MB fields, {:.1f} MB neighbour lists\n  output      {}\n",
+               static_cast<double>(flow_->store().bytes()) * 1e-6,
                static_cast<double>(flow_->neighbours().bytes()) * 1e-6, output_.folder.string());
     std::fflush(stdout);
   }
@@ -207,7 +219,8 @@ class Run {
     if (!due(output_.snapshots, before, now)) return;
     const auto watch = Clock::now();
     std::vector<std::int32_t> groups;
-    const std::string name = fmt::format("particles_{:06}.vtkhdf", std::llround(std::floor(now / output_.snapshots + 1e-9)));
+    const std::string name =
+        fmt::format("particles_{:06}.vtkhdf", std::llround(std::floor(now / output_.snapshots + 1e-9)));
     write_snapshot(output_.folder / name, frame_of(*flow_, step_, output_.fields, groups));
     series.add(name, now);
     seconds_output_ += seconds_since(watch);
@@ -228,9 +241,10 @@ class Run {
   void check_step(const Step& step) {
     if (first_step_ <= 0) first_step_ = step.dt;
     if (std::isfinite(step.dt) && step.dt > 1e-6 * first_step_) return;
-    throw RunError({.what = fmt::format("the time step collapsed to {:.3g} s at t = {:.6g} s", step.dt, flow_->time()),
-                    .why = fmt::format("it is limited by '{}'; the first step was {:.3g} s", step.limiter, first_step_),
-                    .fix = "look for particles that coincide or a pressure that grew beyond bounds in the last snapshot"});
+    throw RunError(
+        {.what = fmt::format("the time step collapsed to {:.3g} s at t = {:.6g} s", step.dt, flow_->time()),
+         .why = fmt::format("it is limited by '{}'; the first step was {:.3g} s", step.limiter, first_step_),
+         .fix = "look for particles that coincide or a pressure that grew beyond bounds in the last snapshot"});
   }
 
   double rate(Clock::time_point start) const { return particle_updates_ / std::max(1e-9, seconds_since(start)); }
@@ -246,11 +260,19 @@ class Run {
     if (progress_start_ < 0) progress_start_ = t;
     const double remaining = t > began ? elapsed * (end - t) / (t - began) : 0;
     if (options_.verbosity == Verbosity::json) {
-      const Json line{{"time", t}, {"end", end}, {"step", step_}, {"dt", step.dt}, {"limiter", step.limiter}, {"rate", rate(start)}, {"remaining_s", remaining}};
+      const Json line{{"time", t},
+                      {"end", end},
+                      {"step", step_},
+                      {"dt", step.dt},
+                      {"limiter", step.limiter},
+                      {"rate", rate(start)},
+                      {"remaining_s", remaining}};
       fmt::print("{}\n", to_line(line));
     } else {
-      fmt::print("{}  t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}", terminal ? "\r" : "", t, end, step_,
-                 step.dt, step.limiter, rate(start) * 1e-6, std::max(0.0, remaining), terminal && !last ? "" : "\n");
+      fmt::print(
+          "{}  t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
+          terminal ? "\r" : "", t, end, step_, step.dt, step.limiter, rate(start) * 1e-6, std::max(0.0, remaining),
+          terminal && !last ? "" : "\n");
     }
     std::fflush(stdout);
   }
@@ -272,15 +294,25 @@ class Run {
                     {"warnings", setup_.warnings},
                     {"stages", stages},
                     {"threads", omp_get_max_threads()},
-                    {"particles", {{"fluid", flow_->store().range(Group::fluid).size()}, {"wall", flow_->store().range(Group::wall).size()}}},
+                    {"particles",
+                     {{"fluid", flow_->store().range(Group::fluid).size()},
+                      {"wall", flow_->store().range(Group::wall).size()}}},
                     {"time", flow_->time()},
                     {"steps", step_},
                     {"list_builds", flow_->list_builds()},
-                    {"seconds", {{"total", seconds_since(start)}, {"sweeps", flow_->seconds_sweeps()}, {"lists", flow_->seconds_lists()}, {"output", seconds_output_}}},
+                    {"seconds",
+                     {{"total", seconds_since(start)},
+                      {"sweeps", flow_->seconds_sweeps()},
+                      {"lists", flow_->seconds_lists()},
+                      {"output", seconds_output_}}},
                     {"particle_updates_per_s", rate(start)},
                     {"memory_bytes", {{"fields", flow_->store().bytes()}, {"lists", flow_->neighbours().bytes()}}},
-                    {"energy", {{"kinetic", e.kinetic}, {"potential", e.potential}, {"elastic", e.elastic}, {"total", e.total()},
-                                {"residual_relative", energies.relative_residual(e)}}}});
+                    {"energy",
+                     {{"kinetic", e.kinetic},
+                      {"potential", e.potential},
+                      {"elastic", e.elastic},
+                      {"total", e.total()},
+                      {"residual_relative", energies.relative_residual(e)}}}});
   }
 
   void summarise(Clock::time_point start, const EnergySeries<N>& energies) const {
@@ -288,10 +320,15 @@ class Run {
     const Energies e = flow_->energies();
     const double total = seconds_since(start);
     const auto share = [&](double seconds) { return 100 * seconds / total; };
-    fmt::print("\n{} steps in {:.1f} s: {:.3g} M particle updates/s; sweeps {:.0f} %, lists {:.0f} % ({} builds), output {:.0f} %\n", step_, total,
-               rate(start) * 1e-6, share(flow_->seconds_sweeps()), share(flow_->seconds_lists()), flow_->list_builds(), share(seconds_output_));
-    fmt::print("energy: kinetic {:.4g}, potential {:.4g}, elastic {:.4g} J; taken by viscosity {:.4g}, artificial {:.4g}, diffusion {:.4g}, walls {:.4g} J\n",
-               e.kinetic, e.potential, e.elastic, e.ledger.viscous, e.ledger.artificial, e.ledger.diffusion, e.ledger.walls);
+    fmt::print(
+        "\n{} steps in {:.1f} s: {:.3g} M particle updates/s; sweeps {:.0f} %, lists {:.0f} % ({} builds), output "
+        "{:.0f} %\n",
+        step_, total, rate(start) * 1e-6, share(flow_->seconds_sweeps()), share(flow_->seconds_lists()),
+        flow_->list_builds(), share(seconds_output_));
+    fmt::print(
+        "energy: kinetic {:.4g}, potential {:.4g}, elastic {:.4g} J; taken by viscosity {:.4g}, artificial {:.4g}, "
+        "diffusion {:.4g}, walls {:.4g} J\n",
+        e.kinetic, e.potential, e.elastic, e.ledger.viscous, e.ledger.artificial, e.ledger.diffusion, e.ledger.walls);
     fmt::print("energy audit residual: {:.2e} of the initial potential energy\n", energies.relative_residual(e));
     const auto comparisons = gauges_.compare();
     if (!comparisons.empty()) fmt::print("\n{}", comparison_table(comparisons));
@@ -319,10 +356,14 @@ int with_run(const RunOptions& options, F&& f) {
   for (const auto& assignment : options.sets) document.set(assignment);
   const Table root = document.root();
   switch (root.integer("dimensions", 3)) {
-    case 1: return f(std::make_unique<Run<1>>(document, options));
-    case 2: return f(std::make_unique<Run<2>>(document, options));
-    case 3: return f(std::make_unique<Run<3>>(document, options));
-    default: root.fail("dimensions", "dimensions must be 1, 2 or 3", {}, "choose one of them");
+    case 1:
+      return f(std::make_unique<Run<1>>(document, options));
+    case 2:
+      return f(std::make_unique<Run<2>>(document, options));
+    case 3:
+      return f(std::make_unique<Run<3>>(document, options));
+    default:
+      root.fail("dimensions", "dimensions must be 1, 2 or 3", {}, "choose one of them");
   }
 }
 

@@ -1,10 +1,10 @@
 #include "undine/app/run_output.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "undine/core/error.hpp"
 
@@ -12,18 +12,35 @@ namespace undine {
 namespace {
 
 std::vector<SeriesColumn> energy_columns() {
-  return {{"time", "s"},       {"step"},           {"dt", "s"},          {"kinetic", "J"},    {"potential", "J"},
-          {"elastic", "J"},    {"viscous", "J"},   {"artificial", "J"},  {"diffusion", "J"},  {"exchange", "J"},
-          {"walls", "J"},      {"xsph", "J"},      {"body", "J"},        {"total", "J"},      {"residual", "J"},
-          {"residual_relative"}, {"strain_dissipation", "J"}, {"saalfeld_dissipation", "W"}};
+  return {{"time", "s"},
+          {"step"},
+          {"dt", "s"},
+          {"kinetic", "J"},
+          {"potential", "J"},
+          {"elastic", "J"},
+          {"viscous", "J"},
+          {"artificial", "J"},
+          {"diffusion", "J"},
+          {"exchange", "J"},
+          {"walls", "J"},
+          {"xsph", "J"},
+          {"body", "J"},
+          {"total", "J"},
+          {"residual", "J"},
+          {"residual_relative"},
+          {"strain_dissipation", "J"},
+          {"saalfeld_dissipation", "W"}};
 }
 
 const std::vector<std::string> energy_comments{
     "kinetic, potential, elastic: energies of the fluid; the next columns: what each term took out of them since t = 0",
-    "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching compression;",
+    "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching "
+    "compression;",
     "walls: given to walls; xsph: moved against gravity by XSPH; body: given to imposed fields",
-    "total: their sum; residual = total - total at t = 0; residual_relative: of the initial potential energy (or the largest energy)",
-    "strain_dissipation: integral of 2 mu D:D over fluid and time; saalfeld_dissipation: integral of mu D:D over the fluid, as printed in his eq. 51;",
+    "total: their sum; residual = total - total at t = 0; residual_relative: of the initial potential energy (or the "
+    "largest energy)",
+    "strain_dissipation: integral of 2 mu D:D over fluid and time; saalfeld_dissipation: integral of mu D:D over the "
+    "fluid, as printed in his eq. 51;",
     "both 0 unless output.strain_dissipation = true"};
 
 }  // namespace
@@ -35,19 +52,23 @@ bool due(double interval, double before, double now) {
 }
 
 template <int N>
-Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields, std::vector<std::int32_t>& groups) {
+Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
+               std::vector<std::int32_t>& groups) {
   const Store<N>& store = flow.store();
   Frame frame{.time = flow.time(), .step = step, .dimensions = N, .particles = store.size()};
   for (int f = 0; f < FieldId::count; ++f) {
     const bool wanted = fields.empty() || f == FieldId::x || std::ranges::count(fields, f) > 0;
     if (!wanted || !store.fields()[f]) continue;
     const FieldInfo& info = all_fields[f];
-    frame.columns.push_back({std::string(info.name), std::string(info.unit == "1" ? "" : info.unit), info.components(N), store.raw(f).data()});
+    frame.columns.push_back({std::string(info.name), std::string(info.unit == "1" ? "" : info.unit), info.components(N),
+                             store.raw(f).data()});
   }
   groups.assign(store.size(), 0);
   const IndexRange wall = store.range(Group::wall);
   std::fill(groups.begin() + wall.begin, groups.begin() + wall.end, 1);
-  frame.integers = {{std::string(identity_column), store.ids().data()}, {"material", store.materials().data()}, {"group", groups.data()}};
+  frame.integers = {{std::string(identity_column), store.ids().data()},
+                    {"material", store.materials().data()},
+                    {"group", groups.data()}};
   return frame;
 }
 
@@ -72,9 +93,24 @@ template <int N>
 void EnergySeries<N>::add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count) {
   const Energies e = flow.energies();
   const auto& l = e.ledger;
-  const std::array row{flow.time(),  static_cast<double>(count), step.dt, e.kinetic, e.potential, e.elastic,  l.viscous, l.artificial,
-                       l.diffusion, l.exchange,                 l.walls, l.xsph,    l.body,      e.total(), e.total() - start_total_,
-                       relative_residual(e), e.strain_dissipated, 0.5 * e.strain_power};
+  const std::array row{flow.time(),
+                       static_cast<double>(count),
+                       step.dt,
+                       e.kinetic,
+                       e.potential,
+                       e.elastic,
+                       l.viscous,
+                       l.artificial,
+                       l.diffusion,
+                       l.exchange,
+                       l.walls,
+                       l.xsph,
+                       l.body,
+                       e.total(),
+                       e.total() - start_total_,
+                       relative_residual(e),
+                       e.strain_dissipated,
+                       0.5 * e.strain_power};
   series_.add(row);
 }
 
@@ -101,13 +137,18 @@ OwnedCheckpoint Checkpoints::read_newest() const {
     } catch (const InputError& error) {
       reasons += (reasons.empty() ? "" : "; ") + error.parts().where.file + " " + error.parts().what;
     }
-  throw InputError({.what = "there is no checkpoint to resume from", .where = {folder_.string()}, .why = reasons,
+  throw InputError({.what = "there is no checkpoint to resume from",
+                    .where = {folder_.string()},
+                    .why = reasons,
                     .fix = "run without --resume, or name the folder of an interrupted run with --out"});
 }
 
-template Frame frame_of<1>(const WeaklyCompressible<1>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
-template Frame frame_of<2>(const WeaklyCompressible<2>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
-template Frame frame_of<3>(const WeaklyCompressible<3>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<1>(const WeaklyCompressible<1>&, std::int64_t, const std::vector<int>&,
+                           std::vector<std::int32_t>&);
+template Frame frame_of<2>(const WeaklyCompressible<2>&, std::int64_t, const std::vector<int>&,
+                           std::vector<std::int32_t>&);
+template Frame frame_of<3>(const WeaklyCompressible<3>&, std::int64_t, const std::vector<int>&,
+                           std::vector<std::int32_t>&);
 template class EnergySeries<1>;
 template class EnergySeries<2>;
 template class EnergySeries<3>;

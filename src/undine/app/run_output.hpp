@@ -24,7 +24,8 @@ bool due(double interval, double before, double now);
 
 /// The particles as a frame; `group` must live as long as the frame. All fields in use when `fields` is empty.
 template <int N>
-Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields, std::vector<std::int32_t>& groups);
+Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
+               std::vector<std::int32_t>& groups);
 
 /// The energies of a run as a series, with the residual of the audit.
 template <int N>
@@ -36,7 +37,8 @@ class EnergySeries {
   void set_start(double total, double potential);
   double start_total() const { return start_total_; }
   double start_potential() const { return start_potential_; }
-  /// Residual of the audit relative to the scale: initial potential energy, or the largest energy seen where there is none.
+  /// Residual of the audit relative to the scale: initial potential energy, or the largest energy seen where there is
+  /// none.
   double relative_residual(const Energies& e) const;
 
  private:

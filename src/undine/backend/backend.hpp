@@ -4,8 +4,8 @@
 
 namespace undine {
 
-/// Who runs the loops. `serial` is plain and defines right; `threads` must agree with it; `checked` is serial, poisons what a sweep
-/// is to write and finds a term that reads what nothing wrote.
+/// Who runs the loops. `serial` is plain and defines right; `threads` must agree with it; `checked` is serial, poisons
+/// what a sweep is to write and finds a term that reads what nothing wrote.
 enum class BackendKind { threads, serial, checked };
 inline constexpr std::array<std::string_view, 3> backend_names{"threads", "serial", "checked"};
 

@@ -15,8 +15,8 @@ struct Info {
   std::string_view citation;  ///< author (year), equation number
 };
 
-/// The list of one axis: each entry is a struct with `static constexpr Info info`. Case-file names, help, error suggestions,
-/// docs tables and the automatic tests are all derived from it.
+/// The list of one axis: each entry is a struct with `static constexpr Info info`. Case-file names, help, error
+/// suggestions, docs tables and the automatic tests are all derived from it.
 template <class... Entries>
 struct Catalogue {
   static constexpr int size = static_cast<int>(sizeof...(Entries));
@@ -33,16 +33,15 @@ struct Catalogue {
     return -1;
   }
 
-  static std::vector<std::string> names() {
-    return {std::string(Entries::info.name)...};
-  }
+  static std::vector<std::string> names() { return {std::string(Entries::info.name)...}; }
 
   template <class Entry>
   static constexpr int index() {
     return index_of(Entry::info.name);
   }
 
-  /// Calls f(Entry{}) for the entry of that index; the index is uniform over a block of pairs, so this is one predictable jump.
+  /// Calls f(Entry{}) for the entry of that index; the index is uniform over a block of pairs, so this is one
+  /// predictable jump.
   template <class F>
   static constexpr decltype(auto) visit(int index, F&& f) {
     return visit_from<0, F, Entries...>(index, f);

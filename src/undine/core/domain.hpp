@@ -6,7 +6,8 @@
 
 namespace undine {
 
-/// The region that particles may be in. Along a periodic axis the region repeats; elsewhere its bounds only say what "escaped" means.
+/// The region that particles may be in. Along a periodic axis the region repeats; elsewhere its bounds only say what
+/// "escaped" means.
 template <int N>
 struct Domain {
   Vec<N> low, high;

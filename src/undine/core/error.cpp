@@ -1,8 +1,8 @@
 #include "undine/core/error.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace undine {
 namespace {

@@ -19,10 +19,10 @@ struct SourceLocation {
 class Error : public std::runtime_error {
  public:
   struct Parts {
-    std::string what;            ///< one clause: what is wrong
-    SourceLocation where = {};   ///< file, line and column, as far as known
-    std::string why = {};        ///< the rule that was broken, with the numbers
-    std::string fix = {};        ///< what to change
+    std::string what;           ///< one clause: what is wrong
+    SourceLocation where = {};  ///< file, line and column, as far as known
+    std::string why = {};       ///< the rule that was broken, with the numbers
+    std::string fix = {};       ///< what to change
   };
 
   explicit Error(Parts parts);

@@ -37,8 +37,7 @@ struct FieldId {
 };
 
 inline constexpr std::array<FieldInfo, FieldId::count> all_fields{{
-#define FIELD(symbol, rank, unit, role, join, meaning) \
-  {#symbol, Rank::rank, unit, Role::role, Join::join, meaning},
+#define FIELD(symbol, rank, unit, role, join, meaning) {#symbol, Rank::rank, unit, Role::role, Join::join, meaning},
 #include "undine/fields.def"
 #undef FIELD
 }};
@@ -49,23 +48,23 @@ template <Rank rank, int N, class V>
 using RankValue =
     std::conditional_t<rank == Rank::scalar, V, std::conditional_t<rank == Rank::vector, Vec<N, V>, Vec<N, Vec<N, V>>>>;
 
-/// One tag type per field. A tag knows its line of fields.def, the type of its value in N dimensions over a value type V, and the
-/// slot that gives a row the member of its name.
+/// One tag type per field. A tag knows its line of fields.def, the type of its value in N dimensions over a value type
+/// V, and the slot that gives a row the member of its name.
 namespace field {
-#define FIELD(symbol, rank_, unit_, role_, join_, meaning_)              \
-  struct symbol {                                                        \
-    static constexpr int id = FieldId::symbol;                           \
-    static constexpr const FieldInfo& info = all_fields[id];             \
-    template <int N, class V>                                            \
-    using value = RankValue<Rank::rank_, N, V>;                          \
-    template <class T>                                                   \
-    struct Slot {                                                        \
-      T symbol;                                                          \
-    };                                                                   \
-    template <class Row>                                                 \
-    static constexpr auto& of(Row& row) {                                \
-      return row.symbol;                                                 \
-    }                                                                    \
+#define FIELD(symbol, rank_, unit_, role_, join_, meaning_)  \
+  struct symbol {                                            \
+    static constexpr int id = FieldId::symbol;               \
+    static constexpr const FieldInfo& info = all_fields[id]; \
+    template <int N, class V>                                \
+    using value = RankValue<Rank::rank_, N, V>;              \
+    template <class T>                                       \
+    struct Slot {                                            \
+      T symbol;                                              \
+    };                                                       \
+    template <class Row>                                     \
+    static constexpr auto& of(Row& row) {                    \
+      return row.symbol;                                     \
+    }                                                        \
   };
 #include "undine/fields.def"
 #undef FIELD
@@ -119,7 +118,8 @@ struct UnionOf<List> {
 template <class List, class... Rest>
 struct UnionOf<List, Fields<>, Rest...> : UnionOf<List, Rest...> {};
 template <class List, class Tag, class... Tags, class... Rest>
-struct UnionOf<List, Fields<Tag, Tags...>, Rest...> : UnionOf<typename Insert<List, Tag>::type, Fields<Tags...>, Rest...> {};
+struct UnionOf<List, Fields<Tag, Tags...>, Rest...>
+    : UnionOf<typename Insert<List, Tag>::type, Fields<Tags...>, Rest...> {};
 }  // namespace detail
 
 /// All fields of the lists, each once, in the order of first mention.

@@ -6,8 +6,8 @@
 
 namespace undine {
 
-/// One term out of a list, chosen at run time. It is itself a term, so a sweep holds it like any other; the choice is uniform over
-/// all pairs. The alternatives must add to the same fields.
+/// One term out of a list, chosen at run time. It is itself a term, so a sweep holds it like any other; the choice is
+/// uniform over all pairs. The alternatives must add to the same fields.
 template <class List>
 class OneOf;
 
@@ -17,13 +17,13 @@ class OneOf<Catalogue<Terms...>> {
   using List = Catalogue<Terms...>;
   using reads = Union<typename Terms::reads...>;
   using adds = typename std::tuple_element_t<0, std::tuple<Terms...>>::adds;
-  static_assert((std::is_same_v<adds, typename Terms::adds> && ...), "alternatives of one choice add to the same fields");
+  static_assert((std::is_same_v<adds, typename Terms::adds> && ...),
+                "alternatives of one choice add to the same fields");
 
   OneOf() = default;
   /// The given alternative with its parameters, chosen.
   template <class Term>
-    requires(std::is_same_v<Term, Terms> || ...)
-  OneOf(const Term& term) : index_(List::template index<Term>()) {
+  requires(std::is_same_v<Term, Terms> || ...) OneOf(const Term& term) : index_(List::template index<Term>()) {
     std::get<Term>(terms_) = term;
   }
 
@@ -44,7 +44,9 @@ class OneOf<Catalogue<Terms...>> {
   /// Calls f(term) for the chosen alternative.
   template <class F>
   void with_chosen(F&& f) {
-    (void)((std::is_same_v<Terms, Terms> && index_ == List::template index<Terms>() && (f(std::get<Terms>(terms_)), true)) || ...);
+    (void)((std::is_same_v<Terms, Terms> && index_ == List::template index<Terms>() &&
+            (f(std::get<Terms>(terms_)), true)) ||
+           ...);
   }
 
   /// The fields that the chosen alternative reads.

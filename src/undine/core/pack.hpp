@@ -17,8 +17,7 @@ class Pack {
 
   Pack() = default;
   template <class S>
-    requires std::is_arithmetic_v<S>
-  Pack(S s) : native_(static_cast<T>(s)) {}
+  requires std::is_arithmetic_v<S> Pack(S s) : native_(static_cast<T>(s)) {}
   Pack(const Native& native) : native_(native) {}
 
   /// The pack whose lane k is f(k).

@@ -4,8 +4,8 @@
 
 namespace undine {
 
-/// One number of a term, an equation of state or a wall that a case file may set. The reader, `undine show` and the docs derive the
-/// key, its check and its help from this line; the default is the member's own initialiser.
+/// One number of a term, an equation of state or a wall that a case file may set. The reader, `undine show` and the
+/// docs derive the key, its check and its help from this line; the default is the member's own initialiser.
 template <class Owner>
 struct Parameter {
   std::string_view name;

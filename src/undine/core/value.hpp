@@ -4,8 +4,8 @@
 
 namespace undine {
 
-// The operations that physics may use on values, for plain numbers. core/pack.hpp has the same set for SIMD packs, so that one
-// source of a kernel or a term serves both: `select`, never `if`, on values.
+// The operations that physics may use on values, for plain numbers. core/pack.hpp has the same set for SIMD packs, so
+// that one source of a kernel or a term serves both: `select`, never `if`, on values.
 
 template <std::floating_point T>
 constexpr T select(bool mask, T yes, T no) {

@@ -21,11 +21,11 @@ struct LoadLanes {
   }
 };
 
-/// Packs of 4, 8 or 16 lanes: four components at a time by 4 x 4 transpositions in registers, a third of the work of loading number
-/// by number. Lane 4 j + l of a group comes from element j of row l, so rows l, l + 4, l + 8, ... are loaded side by side.
+/// Packs of 4, 8 or 16 lanes: four components at a time by 4 x 4 transpositions in registers, a third of the work of
+/// loading number by number. Lane 4 j + l of a group comes from element j of row l, so rows l, l + 4, l + 8, ... are
+/// loaded side by side.
 template <class T, int components>
-  requires(Pack<T>::lanes == 4 || Pack<T>::lanes == 8 || Pack<T>::lanes == 16)
-struct LoadLanes<Pack<T>, components> {
+requires(Pack<T>::lanes == 4 || Pack<T>::lanes == 8 || Pack<T>::lanes == 16) struct LoadLanes<Pack<T>, components> {
   static constexpr int lanes = Pack<T>::lanes;
   typedef T Four __attribute__((vector_size(4 * sizeof(T))));
   typedef T All __attribute__((vector_size(lanes * sizeof(T))));
@@ -33,7 +33,8 @@ struct LoadLanes<Pack<T>, components> {
   static void load(const T* const* from, Pack<T> (&out)[components]) {
     static_assert(components % 4 == 0);
     for (int k = 0; k < components; k += 4) {
-      const All row0 = side_by_side(from, k), row1 = side_by_side(from + 1, k), row2 = side_by_side(from + 2, k), row3 = side_by_side(from + 3, k);
+      const All row0 = side_by_side(from, k), row1 = side_by_side(from + 1, k), row2 = side_by_side(from + 2, k),
+                row3 = side_by_side(from + 3, k);
       using Groups = std::make_integer_sequence<int, lanes>;
       const All low01 = low(row0, row1, Groups{}), high01 = high(row0, row1, Groups{});
       const All low23 = low(row2, row3, Groups{}), high23 = high(row2, row3, Groups{});
@@ -57,7 +58,8 @@ struct LoadLanes<Pack<T>, components> {
     return __builtin_shufflevector(a, b, I...);
   }
 
-  /// Elements k .. k+3 of rows 0, 4, 8, ... one after the other; joined in registers, for a detour through memory stalls.
+  /// Elements k .. k+3 of rows 0, 4, 8, ... one after the other; joined in registers, for a detour through memory
+  /// stalls.
   static All side_by_side(const T* const* from, int k) {
     if constexpr (lanes == 4) {
       return four(from[0] + k);

@@ -101,9 +101,10 @@ void Neighbours<N>::build_lists(Store<N>& store) {
     for (const Group source : all_groups) {
       const IndexRange targets = store.range(target), sources = store.range(source);
       if (target == Group::wall && source == Group::wall) continue;  // walls do not act on walls
-      lists_[static_cast<int>(target)][static_cast<int>(source)].fill(targets.size(), sources.begin, [&](std::size_t t, auto& found) {
-        searches_[static_cast<int>(source)]->find(x[targets.begin + t], list_radius_, found);
-      });
+      lists_[static_cast<int>(target)][static_cast<int>(source)].fill(
+          targets.size(), sources.begin, [&](std::size_t t, auto& found) {
+            searches_[static_cast<int>(source)]->find(x[targets.begin + t], list_radius_, found);
+          });
     }
 }
 
@@ -131,7 +132,8 @@ std::span<const std::uint32_t> Neighbours<N>::of(Group target_group, std::size_t
 }
 
 template <int N>
-void Neighbours<N>::near_point(const Vec<N>& x, Group group, const Store<N>& store, std::vector<std::uint32_t>& found) const {
+void Neighbours<N>::near_point(const Vec<N>& x, Group group, const Store<N>& store,
+                               std::vector<std::uint32_t>& found) const {
   // A particle within the support now was within support + skin/2 when the lists were built.
   searches_[static_cast<int>(group)]->find(x, list_radius_, found);
   for (auto& j : found) j += static_cast<std::uint32_t>(store.range(group).begin);
@@ -142,8 +144,7 @@ std::size_t Neighbours<N>::bytes() const {
   std::size_t total = 0;
   for (const auto& search : searches_) total += search ? search->bytes() : 0;
   for (const auto& row : lists_)
-    for (const auto& list : row)
-      total += list.bytes();
+    for (const auto& list : row) total += list.bytes();
   return total;
 }
 

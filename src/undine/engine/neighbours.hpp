@@ -9,14 +9,15 @@
 
 namespace undine {
 
-/// For each target of a group, the indices (in the store) of the particles of a source group within the list radius, ascending.
+/// For each target of a group, the indices (in the store) of the particles of a source group within the list radius,
+/// ascending.
 class NeighbourList {
  public:
   /// Targets that share one array; small enough to balance splashes, large enough to cost nothing.
   static constexpr std::size_t targets_per_part = 512;
 
-  /// Fills the list in parallel: `find(target, found)` gives the sources of one target, to which `offset` is added. Arrays keep their
-  /// memory from one build to the next.
+  /// Fills the list in parallel: `find(target, found)` gives the sources of one target, to which `offset` is added.
+  /// Arrays keep their memory from one build to the next.
   template <class Find>
   void fill(std::size_t targets, std::size_t offset, Find&& find);
 
@@ -35,15 +36,16 @@ class NeighbourList {
   std::vector<Part> parts_;
 };
 
-/// Neighbour lists of all groups, with a skin so that they hold while particles move less than half of it. Building them sorts
-/// the particles by space: by cell of the list radius, then by id, so that order depends on positions alone and not on history.
+/// Neighbour lists of all groups, with a skin so that they hold while particles move less than half of it. Building
+/// them sorts the particles by space: by cell of the list radius, then by id, so that order depends on positions alone
+/// and not on history.
 template <int N>
 class Neighbours {
  public:
   struct Options {
     std::string search = "cell_grid";
-    double skin = 0.1;          ///< extra list radius as a fraction of the support radius
-    bool store_lists = true;    ///< false: each query asks the search (the serial reference)
+    double skin = 0.1;        ///< extra list radius as a fraction of the support radius
+    bool store_lists = true;  ///< false: each query asks the search (the serial reference)
   };
 
   Neighbours(const Domain<N>& domain, Options options);
@@ -55,7 +57,8 @@ class Neighbours {
   /// Whether some particle moved, or the support grew, further than the skin allows.
   bool stale(const Store<N>& store, double support) const;
 
-  /// Sources of one target (index within its group) as store indices. `scratch` holds the answer when no lists are stored.
+  /// Sources of one target (index within its group) as store indices. `scratch` holds the answer when no lists are
+  /// stored.
   std::span<const std::uint32_t> of(Group target_group, std::size_t target, Group source_group, const Store<N>& store,
                                     std::vector<std::uint32_t>& scratch) const;
   /// Particles of a group that may lie within the support radius of a point.

@@ -13,12 +13,12 @@ template <int N, class V>
 struct PairBase {
   static constexpr int dim = N;
 
-  Vec<N, V> dx;                   ///< x_a - x_b
-  V r;                            ///< |x_a - x_b|
+  Vec<N, V> dx;  ///< x_a - x_b
+  V r;           ///< |x_a - x_b|
   V r_sq;
-  V support;                      ///< support radius H of the pair
-  V h;                            ///< smoothing length h = H / kappa of the pair
-  decltype(V() < V()) inside;     ///< r < H; only maxima need it, sums vanish by themselves
+  V support;                   ///< support radius H of the pair
+  V h;                         ///< smoothing length h = H / kappa of the pair
+  decltype(V() < V()) inside;  ///< r < H; only maxima need it, sums vanish by themselves
 };
 
 /// What a term sees of the pair: the above, and its own kernel.

@@ -1,10 +1,10 @@
 #pragma once
-#include <omp.h>
-
 #include <cmath>
 #include <limits>
 #include <string>
 #include <tuple>
+
+#include <omp.h>
 
 #include "undine/backend/backend.hpp"
 #include "undine/core/error.hpp"
@@ -35,8 +35,12 @@ class PairSweep {
 
   void run(const SweepContext<N>& context, const Backend& backend) {
     switch (backend.kind) {
-      case BackendKind::serial: run_serial(context); break;
-      case BackendKind::checked: run_checked(context); break;
+      case BackendKind::serial:
+        run_serial(context);
+        break;
+      case BackendKind::checked:
+        run_checked(context);
+        break;
       case BackendKind::threads:
         if (backend.precision == PairPrecision::mixed) {
           SweepLoop<N, Pack<float>, Uses...>(context, uses_, records_float_).run(target_, booking_);
@@ -55,7 +59,8 @@ class PairSweep {
     omp_set_num_threads(threads);
   }
 
-  /// Serial, with every output poisoned beforehand, inputs that nothing wrote found by their poison, and results checked.
+  /// Serial, with every output poisoned beforehand, inputs that nothing wrote found by their poison, and results
+  /// checked.
   void run_checked(const SweepContext<N>& context) {
     const IndexRange targets = context.store.range(target_);
     for_each_in(adds(), [&](int f) {
@@ -65,20 +70,23 @@ class PairSweep {
     });
     for (const Group group : all_groups)
       if (group == target_ || takes_from(group))
-        check_finite(context, (takes_from(group) ? reads() : target_reads()) | Fields<field::x, field::h>::set(), context.store.range(group), "reads a value that nothing wrote");
+        check_finite(context, (takes_from(group) ? reads() : target_reads()) | Fields<field::x, field::h>::set(),
+                     context.store.range(group), "reads a value that nothing wrote");
     run_serial(context);
     check_finite(context, adds(), targets, "gave a value that is not finite");
   }
 
-  void check_finite(const SweepContext<N>& context, const FieldSet& fields, IndexRange range, const char* complaint) const {
+  void check_finite(const SweepContext<N>& context, const FieldSet& fields, IndexRange range,
+                    const char* complaint) const {
     for_each_in(fields, [&](int f) {
       const int n = all_fields[f].components(N);
       const auto data = context.store.raw(f);
       for (std::size_t i = range.begin; i < range.end; ++i)
         for (int k = 0; k < n; ++k)
           if (!std::isfinite(data[i * n + k]))
-            throw RunError({.what = "sweep '" + name_ + "' " + complaint + ": field '" + std::string(all_fields[f].name) +
-                                    "' of particle " + std::to_string(context.store.ids()[i])});
+            throw RunError({.what = "sweep '" + name_ + "' " + complaint + ": field '" +
+                                    std::string(all_fields[f].name) + "' of particle " +
+                                    std::to_string(context.store.ids()[i])});
     });
   }
 

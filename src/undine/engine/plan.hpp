@@ -40,18 +40,21 @@ struct Stage {
   std::function<void()> run;
 };
 
-/// Stages in an order derived from what they read and write: who reads a field comes after who writes it. A stage that reads and
-/// writes the same field changes it in place, after those that only write it and before those that only read it.
+/// Stages in an order derived from what they read and write: who reads a field comes after who writes it. A stage that
+/// reads and writes the same field changes it in place, after those that only write it and before those that only read
+/// it.
 class Plan {
  public:
   void add(Stage stage) { stages_.push_back(std::move(stage)); }
-  /// Orders the stages (those free to swap keep the order in which they were added). `given` exists before the first stage. Throws
-  /// std::logic_error naming the stages of a cycle, or a field that is read but neither given nor written.
+  /// Orders the stages (those free to swap keep the order in which they were added). `given` exists before the first
+  /// stage. Throws std::logic_error naming the stages of a cycle, or a field that is read but neither given nor
+  /// written.
   void order(const Resources& given);
   void run() const;
 
   const std::vector<Stage>& stages() const { return stages_; }
-  /// What each stage of the ordered plan reads from earlier stages; with several ranks, what must be exchanged before it.
+  /// What each stage of the ordered plan reads from earlier stages; with several ranks, what must be exchanged before
+  /// it.
   std::vector<Resources> fresh_reads() const;
 
  private:

@@ -9,8 +9,8 @@ enum class Symmetrisation { arithmetic, geometric, max, min };
 
 /// The support radius H of a run: one number, or a value per particle with a rule for pairs.
 struct Support {
-  double uniform = 0;      ///< H where it is the same everywhere; the largest H otherwise
-  double kappa = 2;        ///< H = kappa h
+  double uniform = 0;  ///< H where it is the same everywhere; the largest H otherwise
+  double kappa = 2;    ///< H = kappa h
   bool per_particle = false;
   Symmetrisation mean = Symmetrisation::arithmetic;
 };
@@ -19,10 +19,14 @@ struct Support {
 template <class V, class A>
 V pair_support(Symmetrisation mean, const A& h_a, const V& h_b) {
   switch (mean) {
-    case Symmetrisation::geometric: return sqrt(V(h_a) * h_b);
-    case Symmetrisation::max: return max(V(h_a), h_b);
-    case Symmetrisation::min: return min(V(h_a), h_b);
-    case Symmetrisation::arithmetic: break;
+    case Symmetrisation::geometric:
+      return sqrt(V(h_a) * h_b);
+    case Symmetrisation::max:
+      return max(V(h_a), h_b);
+    case Symmetrisation::min:
+      return min(V(h_a), h_b);
+    case Symmetrisation::arithmetic:
+      break;
   }
   return V(0.5) * (V(h_a) + h_b);
 }

@@ -20,8 +20,8 @@ struct IndexRange {
   std::size_t size() const { return end - begin; }
 };
 
-/// All particles of a run as one array per field (vectors as N numbers side by side), in double. Only fields that were asked for take
-/// memory. Order: fluid, then wall; inside a group as the engine sorted it.
+/// All particles of a run as one array per field (vectors as N numbers side by side), in double. Only fields that were
+/// asked for take memory. Order: fluid, then wall; inside a group as the engine sorted it.
 template <int N>
 class Store {
  public:
@@ -47,7 +47,8 @@ class Store {
   template <class Tag>
   std::span<const typename Tag::template value<N, double>> get() const {
     const auto& data = data_[Tag::id];
-    return {reinterpret_cast<const typename Tag::template value<N, double>*>(data.data()), fields_[Tag::id] ? size() : 0};
+    return {reinterpret_cast<const typename Tag::template value<N, double>*>(data.data()),
+            fields_[Tag::id] ? size() : 0};
   }
   /// The numbers of one field, components side by side; empty when the field is not in use.
   std::span<double> raw(int field) { return data_[field]; }

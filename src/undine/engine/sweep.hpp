@@ -56,9 +56,9 @@ enum class Booking { off, on };
 
 namespace detail {
 
-/// Positions as the pair loop sees them. `double`: as they are. `float`: 32-bit fixed point, so that differences of near
-/// particles are exact to 2^-24 of the list radius however far from the origin they are; along a periodic axis the period is 2^32
-/// units, so that the difference of two positions wraps to the nearest image by itself.
+/// Positions as the pair loop sees them. `double`: as they are. `float`: 32-bit fixed point, so that differences of
+/// near particles are exact to 2^-24 of the list radius however far from the origin they are; along a periodic axis the
+/// period is 2^32 units, so that the difference of two positions wraps to the nearest image by itself.
 template <int N, class Real>
 class PositionCode;
 
@@ -116,7 +116,8 @@ class PositionCode<N, float> {
 
  private:
   static float fixed_difference(float a, float b) {
-    return static_cast<float>(static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(a) - std::bit_cast<std::uint32_t>(b)));
+    return static_cast<float>(
+        static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(a) - std::bit_cast<std::uint32_t>(b)));
   }
   static Pack<float> fixed_difference(float a, const Pack<float>& b) {
     namespace stdx = std::experimental;
@@ -140,8 +141,8 @@ void for_each_number(T& value, F&& f) {
   }
 }
 
-/// Power of a contribution to a rate: force times velocity for `acc`, m p / rho^2 times the rate for a density rate (the work
-/// that compression stores), nothing for any other field.
+/// Power of a contribution to a rate: force times velocity for `acc`, m p / rho^2 times the rate for a density rate
+/// (the work that compression stores), nothing for any other field.
 template <class Tag, class Target, class Value>
 double power_of(const Target& a, const Value& rate) {
   if constexpr (std::is_same_v<Tag, field::acc>) {
@@ -155,9 +156,9 @@ double power_of(const Target& a, const Value& rate) {
 
 }  // namespace detail
 
-/// The pair loop: sums (or maxima) of all uses over the neighbours of each target of one group, written to the store. `V` is the
-/// value type of the pair arithmetic: double (plain), or a pack. Targets are independent and each sums in the order of its
-/// list, so the result does not depend on the number of threads.
+/// The pair loop: sums (or maxima) of all uses over the neighbours of each target of one group, written to the store.
+/// `V` is the value type of the pair arithmetic: double (plain), or a pack. Targets are independent and each sums in
+/// the order of its list, so the result does not depend on the number of threads.
 template <int N, class V, class... Uses>
 class SweepLoop {
  public:
@@ -230,7 +231,8 @@ class SweepLoop {
   template <class T, class Load>
   static void load_row(T& row, Load&& load) {
     int at = N + 1;
-    Reads::for_each([&]<class F>(F) { detail::for_each_number(F::of(row), [&](auto& number) { number = load(at++); }); });
+    Reads::for_each(
+        [&]<class F>(F) { detail::for_each_number(F::of(row), [&](auto& number) { number = load(at++); }); });
   }
 
   void one_target(Group group, std::size_t target, Booking booking, std::vector<std::uint32_t>& scratch,
@@ -266,15 +268,17 @@ class SweepLoop {
   }
 
   /// Sums of all uses over one list. Everything is inlined here, so that sums and constants stay in registers.
-  [[gnu::flatten]] AllSums sum_over(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a, std::span<const std::uint32_t> list) {
+  [[gnu::flatten]] AllSums sum_over(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a,
+                                    std::span<const std::uint32_t> list) {
     AllSums sums{};
     for (std::size_t at = 0; at < list.size(); at += lanes) one_block(source, x_a, h_a, row_a, list, at, sums);
     return sums;
   }
 
-  /// `lanes` neighbours at once. Lanes past the end of the list repeat its last entry at distance 2 H, where every kernel is zero.
-  void one_block(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a, std::span<const std::uint32_t> list,
-                 std::size_t at, AllSums& sums) {
+  /// `lanes` neighbours at once. Lanes past the end of the list repeat its last entry at distance 2 H, where every
+  /// kernel is zero.
+  void one_block(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a,
+                 std::span<const std::uint32_t> list, std::size_t at, AllSums& sums) {
     const Real* from[lanes];
     const int valid = static_cast<int>(std::min<std::size_t>(lanes, list.size() - at));
     const auto record_of = [&](int k) { return records_.data() + std::size_t{list[at + k]} * stride; };
@@ -293,7 +297,8 @@ class SweepLoop {
 
     const Vec<N, V> dx = code_.template difference<V>(x_a, x_b);
     const auto& support = context_.support;
-    const V H = support.per_particle ? pair_support<V>(support.mean, h_a, numbers[N]) : V(static_cast<Real>(support.uniform));
+    const V H =
+        support.per_particle ? pair_support<V>(support.mean, h_a, numbers[N]) : V(static_cast<Real>(support.uniform));
     const V inv_h = support.per_particle ? V(1) / H : V(static_cast<Real>(1.0 / support.uniform));
     V r_sq = norm_sq(dx);
     if (valid < lanes) r_sq = pad(r_sq, valid, H);
@@ -318,13 +323,14 @@ class SweepLoop {
     V inv_h_n = inv_h;
     for (int k = 1; k < N; ++k) inv_h_n = inv_h_n * inv_h;
     return context_.kernels[role].visit([&]<class Kernel>(Kernel) {
-      return KernelValues{Kernel::template w<N>(R) * inv_h_n, Kernel::template slope_over_R<N>(R) * (inv_h_n * inv_h * inv_h)};
+      return KernelValues{Kernel::template w<N>(R) * inv_h_n,
+                          Kernel::template slope_over_R<N>(R) * (inv_h_n * inv_h * inv_h)};
     });
   }
 
   template <std::size_t... I>
-  void evaluate(Group source, const TargetRow& a, const RowOfReads& b, const PairBase<N, V>& base, const V& inv_h, AllSums& sums,
-                std::index_sequence<I...>) {
+  void evaluate(Group source, const TargetRow& a, const RowOfReads& b, const PairBase<N, V>& base, const V& inv_h,
+                AllSums& sums, std::index_sequence<I...>) {
     // Most schemes use one kernel for all roles: it is then evaluated once.
     const V R = base.r * inv_h;
     const auto& kernels = context_.kernels;

@@ -5,7 +5,8 @@
 
 namespace undine {
 
-/// Particles per task of an update, and per partial sum of a total: fixed, so that sums do not depend on the number of threads.
+/// Particles per task of an update, and per partial sum of a total: fixed, so that sums do not depend on the number of
+/// threads.
 inline constexpr std::size_t particles_per_block = 1024;
 
 /// Calls f(i) for each particle of a group, in parallel. Each call may change its own particle only.
@@ -45,7 +46,8 @@ double largest_over(const Store<N>& store, Group group, double lowest, F&& f) {
   return largest;
 }
 
-/// Runs a particle update U: a struct with `reads`, `writes` and a pure function of one particle's row (and its material).
+/// Runs a particle update U: a struct with `reads`, `writes` and a pure function of one particle's row (and its
+/// material).
 template <int N, class U>
 void update(Store<N>& store, Group group, const U& rule) {
   using Reads = typename U::reads;

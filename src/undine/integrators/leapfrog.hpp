@@ -3,12 +3,13 @@
 
 namespace undine::integrators {
 
-/// Density takes its rate at the middle of the step, where x and v are both known: second order, and reversible without friction.
-/// Forces that depend on velocity see the predicted velocity of the new time.
+/// Density takes its rate at the middle of the step, where x and v are both known: second order, and reversible without
+/// friction. Forces that depend on velocity see the predicted velocity of the new time.
 struct Leapfrog {
-  static constexpr Info info{"leapfrog", "Kick-drift-kick leapfrog; second order, one force evaluation a step",
-                             "v += acc dt/2; x += v dt/2; rho += drho(x, v) dt; x += v dt/2; acc(x, v + acc dt/2); v += acc dt/2",
-                             "Saalfeld (2012), eq. 20; Springel (2005), kick-drift-kick"};
+  static constexpr Info info{
+      "leapfrog", "Kick-drift-kick leapfrog; second order, one force evaluation a step",
+      "v += acc dt/2; x += v dt/2; rho += drho(x, v) dt; x += v dt/2; acc(x, v + acc dt/2); v += acc dt/2",
+      "Saalfeld (2012), eq. 20; Springel (2005), kick-drift-kick"};
   template <class Flow>
   static void step(Flow& flow, double dt) {
     flow.book(dt / 2);

@@ -4,8 +4,10 @@
 namespace undine::integrators {
 
 struct PredictorCorrector {
-  static constexpr Info info{"predictor_corrector", "Symplectic predictor-corrector; second order, two evaluations a step",
-                             "to the middle with the old rates; then the whole step with the rates of the middle, x by the mean of old and new v",
+  static constexpr Info info{"predictor_corrector",
+                             "Symplectic predictor-corrector; second order, two evaluations a step",
+                             "to the middle with the old rates; then the whole step with the rates of the middle, x by "
+                             "the mean of old and new v",
                              "Monaghan (1989), sec. 4; Dominguez et al. (2022), eq. 38-41"};
   template <class Flow>
   static void step(Flow& flow, double dt) {

@@ -4,9 +4,9 @@
 
 namespace undine {
 
-/// The energy accounts of a run, in J. State energies are functions of the particles; the others add up over time what each term
-/// took out of (or, negative, put into) their sum. What is left is the residual: the error of time integration, and whatever
-/// was not booked.
+/// The energy accounts of a run, in J. State energies are functions of the particles; the others add up over time what
+/// each term took out of (or, negative, put into) their sum. What is left is the residual: the error of time
+/// integration, and whatever was not booked.
 struct Energies {
   double kinetic = 0;
   double potential = 0;

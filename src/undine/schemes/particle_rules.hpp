@@ -38,15 +38,16 @@ struct TakeNormalisedDensity {
   auto operator()(const auto& a, int) const { return writes::row(a.rho_sum / a.w_sum); }
 };
 
-/// rho_w = max(rho_0, rho_wref + sum over the fluid). Saalfeld (2012), eq. 70; the lower bound keeps a wall from pulling where its
-/// reference is below rho_0.
+/// rho_w = max(rho_0, rho_wref + sum over the fluid). Saalfeld (2012), eq. 70; the lower bound keeps a wall from
+/// pulling where its reference is below rho_0.
 struct AnswerModifiedDensity {
   using reads = Fields<rho_sum, rho_0, rho_wall>;
   using writes = Fields<rho>;
   auto operator()(const auto& a, int) const { return writes::row(std::max(a.rho_0, a.rho_wall + a.rho_sum)); }
 };
 
-/// p_w as the fluid before it has it, zero where there is none; a wall pulls only if it may. rho_w and c_w follow from p_w.
+/// p_w as the fluid before it has it, zero where there is none; a wall pulls only if it may. rho_w and c_w follow from
+/// p_w.
 struct AnswerExtrapolatedPressure {
   using reads = Fields<p_sum, w_sum>;
   using writes = Fields<p, rho, c>;
@@ -72,8 +73,8 @@ struct FollowDensity {
   auto operator()(const auto& a, int) const { return writes::row(support_0 * std::pow(a.rho_0 / a.rho, 1.0 / N)); }
 };
 
-/// G = M^-1 grad rho, exact for linear fields; where the neighbours do not span space (a lone or a flat neighbourhood), the plain
-/// gradient is kept. Antuono et al. (2010), eq. 11.
+/// G = M^-1 grad rho, exact for linear fields; where the neighbours do not span space (a lone or a flat neighbourhood),
+/// the plain gradient is kept. Antuono et al. (2010), eq. 11.
 template <int N>
 struct RenormaliseGradient {
   using reads = Fields<grad_rho, moment>;

@@ -9,26 +9,29 @@ namespace undine::presets {
 
 /// Chosen by the runs in docs/decisions.md, "recommended scheme".
 struct Recommended {
-  static constexpr Info info{"recommended", "What we find best for free-surface water",
-                             "Wendland C2, H = 2.6 dp, continuity, symmetric pressure, Tait by sound speed, fourtakas diffusion, "
-                             "alpha = 0.02, Adami walls that never pull, guarded by reflection",
-                             "docs/decisions.md"};
-  static constexpr std::string_view kernel = "wendland_c2", density = "continuity", pressure = "symmetric", viscosity = "none",
-                                    artificial = "monaghan", diffusion = "fourtakas", xsph = "none", eos = "tait_sound_speed",
-                                    wall = "adami", wall_reference = "auto", integrator = "leapfrog";
+  static constexpr Info info{
+      "recommended", "What we find best for free-surface water",
+      "Wendland C2, H = 2.6 dp, continuity, symmetric pressure, Tait by sound speed, fourtakas diffusion, "
+      "alpha = 0.02, Adami walls that never pull, guarded by reflection",
+      "docs/decisions.md"};
+  static constexpr std::string_view kernel = "wendland_c2", density = "continuity", pressure = "symmetric",
+                                    viscosity = "none", artificial = "monaghan", diffusion = "fourtakas", xsph = "none",
+                                    eos = "tait_sound_speed", wall = "adami", wall_reference = "auto",
+                                    integrator = "leapfrog";
   static constexpr double support_over_spacing = 2.6, alpha = 0.02, epsilon = 0.5, fixed_step = 0;
   static constexpr bool wall_pulls = false, guard = true;
   static constexpr int wall_layers = 0;  ///< 0: as many as the support needs
 };
 
 struct Saalfeld {
-  static constexpr Info info{"saalfeld", "The set-up of Saalfeld's thesis, exactly",
-                             "Wendland C2, H = 2.25 dp, volume-weighted continuity, symmetric pressure, Tait with p_ref 101300 Pa, laminar "
-                             "viscosity, XSPH 0.1, dt = 1 ms, combined walls of one sheet with rho_wref = rho_0",
-                             "Saalfeld (2012), table 2 and ch. 7"};
+  static constexpr Info info{
+      "saalfeld", "The set-up of Saalfeld's thesis, exactly",
+      "Wendland C2, H = 2.25 dp, volume-weighted continuity, symmetric pressure, Tait with p_ref 101300 Pa, laminar "
+      "viscosity, XSPH 0.1, dt = 1 ms, combined walls of one sheet with rho_wref = rho_0",
+      "Saalfeld (2012), table 2 and ch. 7"};
   static constexpr std::string_view kernel = "wendland_c2", density = "continuity_volume", pressure = "symmetric",
-                                    viscosity = "laminar", artificial = "none", diffusion = "none", xsph = "xsph", eos = "tait",
-                                    wall = "combined", wall_reference = "rho_0", integrator = "leapfrog";
+                                    viscosity = "laminar", artificial = "none", diffusion = "none", xsph = "xsph",
+                                    eos = "tait", wall = "combined", wall_reference = "rho_0", integrator = "leapfrog";
   static constexpr double support_over_spacing = 2.25, alpha = 0.02, epsilon = 0.1, fixed_step = 1e-3;
   static constexpr bool wall_pulls = true, guard = false;
   static constexpr int wall_layers = 1;

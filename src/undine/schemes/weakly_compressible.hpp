@@ -10,15 +10,16 @@
 
 namespace undine {
 
-/// A weakly compressible liquid with its walls: state, rates, and the moves that integrators are made of (integrators/euler.hpp lists
-/// them). Throws RunError when a value is no longer finite or a particle left the domain.
+/// A weakly compressible liquid with its walls: state, rates, and the moves that integrators are made of
+/// (integrators/euler.hpp lists them). Throws RunError when a value is no longer finite or a particle left the domain.
 template <int N>
 class WeaklyCompressible {
  public:
   using Options = WeaklyCompressibleOptions<N>;
 
-  /// Takes the particles as set up (x, v, rho, m, h, rho_0, mu of fluid and wall) and evaluates their rates. With the `memory` of
-  /// an earlier run it goes on with the same bits: the store must then be as it was, every field in its order.
+  /// Takes the particles as set up (x, v, rho, m, h, rho_0, mu of fluid and wall) and evaluates their rates. With the
+  /// `memory` of an earlier run it goes on with the same bits: the store must then be as it was, every field in its
+  /// order.
   WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options, const std::vector<double>& memory = {});
   WeaklyCompressible(const WeaklyCompressible&) = delete;
   WeaklyCompressible& operator=(const WeaklyCompressible&) = delete;
@@ -39,7 +40,8 @@ class WeaklyCompressible {
   Step stable_step(const StepLimits& limits) const;
 
   Energies energies() const;
-  /// Force on the walls' particles from the fluid, field acc of the wall group (m/s^2, times m gives N). Changes no state.
+  /// Force on the walls' particles from the fluid, field acc of the wall group (m/s^2, times m gives N). Changes no
+  /// state.
   void evaluate_wall_forces();
 
   /// What a checkpoint must keep besides the store: time, ledger, powers, the support at the last list build.

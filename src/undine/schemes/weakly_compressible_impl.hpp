@@ -1,12 +1,11 @@
 #pragma once
 // The definitions of WeaklyCompressible<N>, compiled once for each N in weakly_compressible_Nd.cpp.
-#include "undine/schemes/weakly_compressible.hpp"
+#include <chrono>
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "undine/schemes/particle_rules.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
 
 namespace undine {
 namespace {
@@ -30,8 +29,12 @@ class Stopwatch {
 }  // namespace
 
 template <int N>
-WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options, const std::vector<double>& memory)
-    : store_(std::move(store)), domain_(domain), options_(std::move(options)), neighbours_(domain_, options_.neighbours) {
+WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options,
+                                          const std::vector<double>& memory)
+    : store_(std::move(store)),
+      domain_(domain),
+      options_(std::move(options)),
+      neighbours_(domain_, options_.neighbours) {
   configure();
   make_plan();
   if (memory.empty()) {
@@ -53,10 +56,18 @@ void WeaklyCompressible<N>::configure() {
 
   force_.template use<0>() = {options_.pressure, true, {true, walls}, {}};
   force_.template use<1>() = {continuity, true, {true, walls}, {}};
-  force_.template use<2>() = {options_.viscosity.value_or(OneOf<terms::ViscosityForms>{}), options_.viscosity.has_value(), {true, friction}, {}};
-  force_.template use<3>() = {options_.artificial.value_or(OneOf<terms::ArtificialViscosities>{}), options_.artificial.has_value(), {true, friction}, {}};
-  force_.template use<4>() = {options_.diffusion.value_or(OneOf<terms::DiffusionForms>{}), diffuses(), {true, false}, {}};
-  force_.template use<5>() = {options_.xsph.value_or(OneOf<terms::VelocityCorrections>{}), options_.xsph.has_value(), {true, false}, {}};
+  force_.template use<2>() = {options_.viscosity.value_or(OneOf<terms::ViscosityForms>{}),
+                              options_.viscosity.has_value(),
+                              {true, friction},
+                              {}};
+  force_.template use<3>() = {options_.artificial.value_or(OneOf<terms::ArtificialViscosities>{}),
+                              options_.artificial.has_value(),
+                              {true, friction},
+                              {}};
+  force_.template use<4>() = {
+      options_.diffusion.value_or(OneOf<terms::DiffusionForms>{}), diffuses(), {true, false}, {}};
+  force_.template use<5>() = {
+      options_.xsph.value_or(OneOf<terms::VelocityCorrections>{}), options_.xsph.has_value(), {true, false}, {}};
   force_.template use<6>() = {{}, true, {true, walls}, {}};
   continuity_.template use<0>() = {continuity, true, {true, walls}, {}};
   wall_continuity_.template use<0>() = {continuity, true, {true, false}, {}};
@@ -79,7 +90,8 @@ void WeaklyCompressible<N>::configure() {
 template <int N>
 void WeaklyCompressible<N>::make_plan() {
   const bool walls = options_.wall_density != WallDensity::none;
-  const bool renormalised = diffuses() && options_.diffusion->index() == terms::DiffusionForms::index<terms::DiffusionAntuono>();
+  const bool renormalised =
+      diffuses() && options_.diffusion->index() == terms::DiffusionForms::index<terms::DiffusionAntuono>();
 
   add_density_stages();
   add_update("equation of state", Group::fluid, rules::ApplyEquationOfState{options_.materials});
@@ -110,7 +122,8 @@ void WeaklyCompressible<N>::make_plan() {
   FieldSet given_fields = Fields<x, v, m, rho, h, rho_0, mu, rho_wall, x_list>::set();
   Resources given;
   for (const Group g : all_groups) given.add(g, given_fields);
-  FieldSet used = given_fields | Fields<p, c, acc, drho, drho_diff, v_xsph, mu_cfl, acc_old, x_start, v_start, rho_start>::set();
+  FieldSet used =
+      given_fields | Fields<p, c, acc, drho, drho_diff, v_xsph, mu_cfl, acc_old, x_start, v_start, rho_start>::set();
   for (const auto& stage : plan_.stages()) used |= stage.reads.fields() | stage.writes.fields();
   store_.allocate(used);
   // Terms that are not in use leave these at zero, and so do walls.
@@ -153,7 +166,8 @@ void WeaklyCompressible<N>::add_wall_stages() {
   add_update("wall equation of state", Group::wall, rules::ApplyEquationOfState{options_.materials});
 }
 
-/// Dissipation by the velocity gradient L: 2 mu D:D per volume, D = (L + L^T)/2. Saalfeld (2012), eq. 51-54 (with the factor 2).
+/// Dissipation by the velocity gradient L: 2 mu D:D per volume, D = (L + L^T)/2. Saalfeld (2012), eq. 51-54 (with the
+/// factor 2).
 template <int N>
 void WeaklyCompressible<N>::add_strain_stage() {
   add_sweep(strain_, options_.wall_density != WallDensity::none);
@@ -229,9 +243,10 @@ void WeaklyCompressible<N>::check_particles() const {
     if (domain_.contains(at[i]) && std::isfinite(norm_sq(at[i]))) continue;
     std::string place;
     for (int k = 0; k < N; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", at[i][k]);
-    throw RunError({.what = fmt::format("particle {} left the domain at t = {:.6g} s: x = ({}) m", store_.ids()[i], time_, place),
-                    .why = "it passed a wall, or was thrown out by a pressure that grew beyond bounds",
-                    .fix = "take a smaller time step, a larger speed of sound, a tight wall ('combined') or a larger [domain]"});
+    throw RunError(
+        {.what = fmt::format("particle {} left the domain at t = {:.6g} s: x = ({}) m", store_.ids()[i], time_, place),
+         .why = "it passed a wall, or was thrown out by a pressure that grew beyond bounds",
+         .fix = "take a smaller time step, a larger speed of sound, a tight wall ('combined') or a larger [domain]"});
   }
 }
 
@@ -247,9 +262,11 @@ void WeaklyCompressible<N>::evaluate() {
   const IndexRange fluid = store_.range(Group::fluid);
   for (std::size_t i = fluid.begin; i < fluid.end; ++i)
     if (!std::isfinite(norm_sq(a[i])))
-      throw RunError({.what = fmt::format("the acceleration of particle {} is not finite at t = {:.6g} s", store_.ids()[i], time_),
-                      .why = fmt::format("rho = {:.6g} kg/m^3, p = {:.6g} Pa", store_.template get<rho>()[i], store_.template get<p>()[i]),
-                      .fix = "take a smaller time step, or a kernel fit for pressure"});
+      throw RunError(
+          {.what = fmt::format("the acceleration of particle {} is not finite at t = {:.6g} s", store_.ids()[i], time_),
+           .why = fmt::format("rho = {:.6g} kg/m^3, p = {:.6g} Pa", store_.template get<rho>()[i],
+                              store_.template get<p>()[i]),
+           .fix = "take a smaller time step, or a kernel fit for pressure"});
 }
 
 template <int N>
@@ -381,9 +398,11 @@ Step WeaklyCompressible<N>::stable_step(const StepLimits& limits) const {
     if (dt < step.dt) step = {dt, name};
   };
   limit(limits.courant / fastest([&](std::size_t i) { return (sound[i] + approach[i]) * kappa / H[i]; }), "courant");
-  limit(limits.force / std::sqrt(fastest([&](std::size_t i) { return std::sqrt(norm_sq(a[i])) * kappa / H[i]; })), "force");
+  limit(limits.force / std::sqrt(fastest([&](std::size_t i) { return std::sqrt(norm_sq(a[i])) * kappa / H[i]; })),
+        "force");
   if (options_.viscosity)
-    limit(limits.viscous / fastest([&](std::size_t i) { return viscosity[i] / density[i] * sq(kappa / H[i]); }), "viscous");
+    limit(limits.viscous / fastest([&](std::size_t i) { return viscosity[i] / density[i] * sq(kappa / H[i]); }),
+          "viscous");
   return step;
 }
 
@@ -415,7 +434,8 @@ std::vector<double> WeaklyCompressible<N>::memory() const {
   std::vector<double> numbers{time_, neighbours_.support(), body_power_, strain_power_, strain_dissipated_};
   const auto& l = ledger_;
   numbers.insert(numbers.end(), {l.viscous, l.artificial, l.diffusion, l.exchange, l.walls, l.xsph, l.body});
-  std::apply([&](const auto&... use) { (numbers.insert(numbers.end(), use.power.begin(), use.power.end()), ...); }, force_.uses());
+  std::apply([&](const auto&... use) { (numbers.insert(numbers.end(), use.power.begin(), use.power.end()), ...); },
+             force_.uses());
   return numbers;
 }
 
@@ -428,7 +448,8 @@ void WeaklyCompressible<N>::recall(const std::vector<double>& numbers) {
   strain_power_ = *next++;
   strain_dissipated_ = *next++;
   auto& l = ledger_;
-  for (double* account : {&l.viscous, &l.artificial, &l.diffusion, &l.exchange, &l.walls, &l.xsph, &l.body}) *account = *next++;
+  for (double* account : {&l.viscous, &l.artificial, &l.diffusion, &l.exchange, &l.walls, &l.xsph, &l.body})
+    *account = *next++;
   std::apply(
       [&](auto&... use) {
         const auto read = [&](Power& power) {
@@ -439,6 +460,5 @@ void WeaklyCompressible<N>::recall(const std::vector<double>& numbers) {
       force_.uses());
   support_now_ = largest_support();
 }
-
 
 }  // namespace undine

@@ -38,8 +38,8 @@ using BodyForce = std::function<Vec<N>(const Vec<N>& x, double t)>;
 template <int N>
 struct WeaklyCompressibleOptions {
   std::array<KernelChoice, kernel_roles> kernels;
-  Support support;          ///< `uniform` is the largest H at the start
-  bool rho_law = false;     ///< H = H_0 (rho_0/rho)^(1/N), Niedoba (2012), eq. 2.67
+  Support support;       ///< `uniform` is the largest H at the start
+  bool rho_law = false;  ///< H = H_0 (rho_0/rho)^(1/N), Niedoba (2012), eq. 2.67
 
   DensityForm density = DensityForm::evolved;
   OneOf<terms::ContinuityForms> continuity;
@@ -50,14 +50,14 @@ struct WeaklyCompressibleOptions {
   std::optional<OneOf<terms::DiffusionForms>> diffusion;
 
   walls::WallDensity wall_density = walls::WallDensity::none;
-  bool wall_pulls = false;      ///< whether evolved wall particles may fall below rho_0, and then pull on fluid that leaves
-  bool wall_friction = true;   ///< whether viscosities act between fluid and walls
-  Reflector<N> reflector;      ///< empty: no elastic walls
+  bool wall_pulls = false;  ///< whether evolved wall particles may fall below rho_0, and then pull on fluid that leaves
+  bool wall_friction = true;  ///< whether viscosities act between fluid and walls
+  Reflector<N> reflector;     ///< empty: no elastic walls
 
   std::vector<materials::Material> materials;
   bool strain_dissipation = false;  ///< also measure 2 mu D:D from the velocity gradient, at the cost of a sweep
   Vec<N> gravity{};
-  BodyForce<N> body_force;     ///< empty: gravity alone
+  BodyForce<N> body_force;  ///< empty: gravity alone
 
   Backend backend;
   typename Neighbours<N>::Options neighbours;

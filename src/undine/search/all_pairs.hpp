@@ -7,7 +7,8 @@ namespace undine {
 template <int N>
 class AllPairs final : public NeighbourSearch<N> {
  public:
-  static constexpr Info info{"all_pairs", "Every point against every point, O(n^2)", "|x_a - x_b| < R", "Saalfeld (2012), ch. 6"};
+  static constexpr Info info{"all_pairs", "Every point against every point, O(n^2)", "|x_a - x_b| < R",
+                             "Saalfeld (2012), ch. 6"};
 
   void build(std::span<const Vec<N>> points, double, const Domain<N>& domain) override {
     points_ = points;

@@ -7,8 +7,8 @@
 namespace undine {
 namespace {
 
-// Which side of a face a point lies on is subject to rounding. Cells are wider than the radius by more than that, so that two points
-// nearer than the radius never have a whole cell between them.
+// Which side of a face a point lies on is subject to rounding. Cells are wider than the radius by more than that, so
+// that two points nearer than the radius never have a whole cell between them.
 constexpr double wider = 1 + 1e-6;
 constexpr double farther = 1 + 1e-7;
 
@@ -35,8 +35,8 @@ void CellGrid<N>::build(std::span<const Vec<N>> points, double radius, const Dom
   for (std::size_t k = 0; k < points.size(); ++k) sorted_points_[k] = points[order_[k]];
 }
 
-/// Cells a little more than one radius wide over the points' bounding box (over the period on a periodic axis); wider where particles far
-/// apart would ask for many more cells than there are points.
+/// Cells a little more than one radius wide over the points' bounding box (over the period on a periodic axis); wider
+/// where particles far apart would ask for many more cells than there are points.
 template <int N>
 void CellGrid<N>::choose_cells(double radius) {
   Vec<N> high;
@@ -107,7 +107,8 @@ void CellGrid<N>::find(const Vec<N>& x, double radius, std::vector<std::uint32_t
   std::size_t candidates = 0;
   for_each_run(low, high, [&](std::uint32_t begin, std::uint32_t end) { candidates += end - begin; });
   if (candidates == 0) return;
-  thread_local std::vector<std::uint32_t> near;  // keeps its size: growing it in each query would cost more than the query
+  thread_local std::vector<std::uint32_t>
+      near;  // keeps its size: growing it in each query would cost more than the query
   if (near.size() < candidates) near.resize(candidates);
   std::size_t count = 0;
   const double radius_sq = sq(radius);

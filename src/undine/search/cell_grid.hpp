@@ -3,11 +3,13 @@
 
 namespace undine {
 
-/// Points sorted into cubic cells (counting sort; inside a cell by index). Used as a search, and to sort particles by space.
+/// Points sorted into cubic cells (counting sort; inside a cell by index). Used as a search, and to sort particles by
+/// space.
 template <int N>
 class CellGrid final : public NeighbourSearch<N> {
  public:
-  static constexpr Info info{"cell_grid", "Uniform grid of cells, O(n)", "cell = floor((x - x_min) / R)", "Saalfeld (2012), 6.4"};
+  static constexpr Info info{"cell_grid", "Uniform grid of cells, O(n)", "cell = floor((x - x_min) / R)",
+                             "Saalfeld (2012), 6.4"};
 
   void build(std::span<const Vec<N>> points, double radius, const Domain<N>& domain) override;
   void find(const Vec<N>& x, double radius, std::vector<std::uint32_t>& found) const override;

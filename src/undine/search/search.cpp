@@ -30,7 +30,9 @@ std::unique_ptr<NeighbourSearch<N>> make_search(const std::string& name) {
   for_each_search<N>([&]<class S>() {
     if (S::info.name == name) search = std::make_unique<S>();
   });
-  if (!search) throw InputError({.what = "there is no neighbour search named '" + name + "'", .fix = "see `undine list searches`"});
+  if (!search)
+    throw InputError(
+        {.what = "there is no neighbour search named '" + name + "'", .fix = "see `undine list searches`"});
   return search;
 }
 

@@ -10,8 +10,8 @@
 
 namespace undine {
 
-/// Finds points near a point. Every search gives the same answer in the same order (ascending index), so results do not depend on
-/// the choice by a single bit.
+/// Finds points near a point. Every search gives the same answer in the same order (ascending index), so results do not
+/// depend on the choice by a single bit.
 template <int N>
 class NeighbourSearch {
  public:
@@ -20,7 +20,8 @@ class NeighbourSearch {
   /// Takes the points (which must outlive the search and not move) and the largest radius that will be asked for.
   virtual void build(std::span<const Vec<N>> points, double radius, const Domain<N>& domain) = 0;
 
-  /// Replaces `found` by the indices of all points with |x - point| < radius, nearest periodic image counted, ascending.
+  /// Replaces `found` by the indices of all points with |x - point| < radius, nearest periodic image counted,
+  /// ascending.
   virtual void find(const Vec<N>& x, double radius, std::vector<std::uint32_t>& found) const = 0;
 
   virtual std::size_t bytes() const = 0;

@@ -9,12 +9,12 @@
 namespace undine::walls {
 
 /// The one list of wall treatments. A wall is a neighbour that answers with values: terms know none of this.
-using Walls = Catalogue<   //
-    Combined,              //
-    Adami,                 //
-    WallParticles,         //
-    ModifiedDensity,       //
-    Elastic,               //
+using Walls = Catalogue<  //
+    Combined,             //
+    Adami,                //
+    WallParticles,        //
+    ModifiedDensity,      //
+    Elastic,              //
     None>;
 
 }  // namespace undine::walls

@@ -5,9 +5,7 @@
 namespace undine::walls {
 
 struct None {
-  static constexpr Info info{"none", "No wall: free or periodic boundaries only",
-                             "-",
-                             "-"};
+  static constexpr Info info{"none", "No wall: free or periodic boundaries only", "-", "-"};
   static constexpr WallDensity density = WallDensity::none;
   static constexpr bool reflects = false;
 };

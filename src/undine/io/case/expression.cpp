@@ -312,7 +312,11 @@ class Compiler {
   void call(std::string_view name, std::size_t begin) {
     const auto function =
         std::find_if(functions.begin(), functions.end(), [&](const auto& entry) { return entry.name == name; });
-    if (function == functions.end()) unknown(name, begin);
+    if (function == functions.end()) {
+      const bool value = name == "x" || name == "y" || name == "z" || name == "t" || name == "pi" || name == "e" || constants_.contains(name);
+      if (value) fail(begin, fmt::format("'{}' is not a function", name), "write products with '*'");
+      unknown(name, begin);
+    }
     const auto open = at_;
     take("(");
     int count = 0;

@@ -8,8 +8,8 @@
 namespace undine::materials {
 
 struct Isothermal {
-  static constexpr Info info{"isothermal", "Artificial compressibility: pressure proportional to density", "p = c_0^2 rho",
-                             "Niedoba (2012), eq. 2.74"};
+  static constexpr Info info{"isothermal", "Artificial compressibility: pressure proportional to density",
+                             "p = c_0^2 rho", "Niedoba (2012), eq. 2.74"};
   double rho_0 = 1000;
   double c_0 = 30;
   static constexpr auto parameters() {

@@ -13,7 +13,8 @@ struct Linear {
   double rho_0 = 1000;
   double c_0 = 30;
   static constexpr auto parameters() {
-    return std::array{Parameter<Linear>{"sound_speed", &Linear::c_0, "m/s", "c_0, at least ten times the largest velocity", 1e-300}};
+    return std::array{
+        Parameter<Linear>{"sound_speed", &Linear::c_0, "m/s", "c_0, at least ten times the largest velocity", 1e-300}};
   }
 
   double pressure(double rho) const { return c_0 * c_0 * (rho - rho_0); }

@@ -15,7 +15,8 @@ struct Polytropic {
   double n = 1.5;
   static constexpr auto parameters() {
     using P = Parameter<Polytropic>;
-    return std::array{P{"K", &Polytropic::K, "SI", "polytropic constant", 1e-300}, P{"index", &Polytropic::n, "1", "n", 1e-3}};
+    return std::array{P{"K", &Polytropic::K, "SI", "polytropic constant", 1e-300},
+                      P{"index", &Polytropic::n, "1", "n", 1e-3}};
   }
 
   double pressure(double rho) const { return K * std::pow(rho, 1 + 1 / n); }

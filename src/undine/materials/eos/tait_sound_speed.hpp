@@ -12,8 +12,9 @@ struct TaitSoundSpeed {
   double gamma = 7;
   static constexpr auto parameters() {
     using P = Parameter<TaitSoundSpeed>;
-    return std::array{P{"sound_speed", &TaitSoundSpeed::c_0, "m/s", "c_0, at least ten times the largest velocity", 1e-300},
-                      P{"gamma", &TaitSoundSpeed::gamma, "1", "exponent", 1}};
+    return std::array{
+        P{"sound_speed", &TaitSoundSpeed::c_0, "m/s", "c_0, at least ten times the largest velocity", 1e-300},
+        P{"gamma", &TaitSoundSpeed::gamma, "1", "exponent", 1}};
   }
 
   /// The same law as `tait`, with p_ref = rho_0 c_0^2 / gamma.

@@ -6,7 +6,8 @@ namespace undine::terms {
 using namespace field;
 
 struct Continuity {
-  static constexpr Info info{"continuity", "Density carried by the continuity equation; the partner of pressure form `symmetric`",
+  static constexpr Info info{"continuity",
+                             "Density carried by the continuity equation; the partner of pressure form `symmetric`",
                              "drho_a/dt = sum_b m_b (v_a - v_b) . grad_a W_ab",
                              "Monaghan (1992), eq. 2.17; Saalfeld (2012), eq. 36; Niedoba (2012), eq. 2.61"};
   using reads = Fields<m, v>;
@@ -18,8 +19,9 @@ struct Continuity {
 };
 
 struct ContinuityVolume {
-  static constexpr Info info{"continuity_volume", "Continuity weighted by the neighbours' volumes; the partner of pressure form `sum`",
-                             "drho_a/dt = rho_a sum_b (m_b/rho_b) (v_a - v_b) . grad_a W_ab", "Saalfeld (2012), eq. 37"};
+  static constexpr Info info{
+      "continuity_volume", "Continuity weighted by the neighbours' volumes; the partner of pressure form `sum`",
+      "drho_a/dt = rho_a sum_b (m_b/rho_b) (v_a - v_b) . grad_a W_ab", "Saalfeld (2012), eq. 37"};
   using reads = Fields<m, rho, v>;
   using adds = Fields<drho>;
 

@@ -9,16 +9,18 @@ namespace undine::terms {
 using namespace field;
 
 struct DiffusionFourtakas {
-  static constexpr Info info{"fourtakas", "Density diffusion of what deviates from the hydrostatic difference",
-                             "as `molteni`, with (rho_b - rho_a) - (rho_a + rho_b)/2 g.(x_b - x_a)/c^2 for the density difference",
-                             "Fourtakas et al. (2019), eq. 11 (hydrostatic part linear in p/(rho c^2))"};
+  static constexpr Info info{
+      "fourtakas", "Density diffusion of what deviates from the hydrostatic difference",
+      "as `molteni`, with (rho_b - rho_a) - (rho_a + rho_b)/2 g.(x_b - x_a)/c^2 for the density difference",
+      "Fourtakas et al. (2019), eq. 11 (hydrostatic part linear in p/(rho c^2))"};
   using reads = Fields<m, rho, c>;
   using adds = Fields<drho_diff>;
 
   double delta = 0.1;
   Vec<3> gravity;  ///< the case's gravity, m/s^2; set by the scheme
   static constexpr auto parameters() {
-    return std::array{Parameter<DiffusionFourtakas>{"delta", &DiffusionFourtakas::delta, "1", "strength of the diffusion", 0}};
+    return std::array{
+        Parameter<DiffusionFourtakas>{"delta", &DiffusionFourtakas::delta, "1", "strength of the diffusion", 0}};
   }
 
   auto operator()(const auto& a, const auto& b, const auto& ab) const {

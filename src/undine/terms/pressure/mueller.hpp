@@ -6,7 +6,8 @@ namespace undine::terms {
 using namespace field;
 
 struct PressureMueller {
-  static constexpr Info info{"mueller", "Pressure force by the mean pressure, as printed by Saalfeld; half as strong as `sum`",
+  static constexpr Info info{"mueller",
+                             "Pressure force by the mean pressure, as printed by Saalfeld; half as strong as `sum`",
                              "dv_a/dt = - sum_b m_b (p_a + p_b)/(2 rho_a rho_b) grad_a W_ab",
                              "Mueller et al. (2003); Saalfeld (2012), eq. 43"};
   using reads = Fields<m, rho, p>;

@@ -17,8 +17,9 @@ struct PressurePlain {
 };
 
 struct PressureDifference {
-  static constexpr Info info{"difference", "Gradient of the pressure difference: exact for constant pressure, breaks momentum",
-                             "dv_a/dt = - 1/rho_a sum_b m_b (p_b - p_a)/rho_b grad_a W_ab", "Monaghan (1992), eq. 2.9 applied to p"};
+  static constexpr Info info{
+      "difference", "Gradient of the pressure difference: exact for constant pressure, breaks momentum",
+      "dv_a/dt = - 1/rho_a sum_b m_b (p_b - p_a)/rho_b grad_a W_ab", "Monaghan (1992), eq. 2.9 applied to p"};
   using reads = Fields<m, rho, p>;
   using adds = Fields<acc>;
 

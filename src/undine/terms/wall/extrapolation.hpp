@@ -6,8 +6,9 @@ namespace undine::terms {
 using namespace field;
 
 struct WallExtrapolation {
-  static constexpr Info info{"wall_extrapolation", "Pressure of the fluid carried hydrostatically to a wall particle, and its weight",
-                             "p_w = sum_f V_f (p_f + rho_f g.(x_w - x_f)) W_wf / sum_f V_f W_wf", "Adami et al. (2012), eq. 27"};
+  static constexpr Info info{
+      "wall_extrapolation", "Pressure of the fluid carried hydrostatically to a wall particle, and its weight",
+      "p_w = sum_f V_f (p_f + rho_f g.(x_w - x_f)) W_wf / sum_f V_f W_wf", "Adami et al. (2012), eq. 27"};
   using reads = Fields<m, rho, p>;
   using target_reads = Fields<>;  // of the wall particle only its place
   using adds = Fields<p_sum, w_sum>;
