@@ -184,7 +184,7 @@ class WallForce : public Gauge<N> {
 
   WallForce(const Table& table, const GaugeContext<N>& context)
       : where_(table.where()), about_(read_point<N>(table, "about", Vec<N>{})) {
-    if (context.bodies.empty())
+    if (context.bodies.empty() && !context.body_of_id.empty())
       table.fail("type", "there are no wall particles to push on", "force is summed over wall particles",
                  "choose a wall treatment with particles, or leave this gauge out");
     if (!table.has("wall")) return;

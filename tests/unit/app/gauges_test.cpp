@@ -132,7 +132,7 @@ TEST(Interpolate, GivesLinearFieldsOnALattice) {
       const auto here = interpolate(source, at);
       // A full neighbourhood, also across the periodic seam: the Shepard sum is 1 within 2 %.
       EXPECT_NEAR(here.weight, 1, 0.02);
-      EXPECT_EQ(here.weight, fluid_share(source, at));
+      EXPECT_DOUBLE_EQ(here.weight, fluid_share(source, at));
       // Shepard sums reproduce constants to rounding.
       EXPECT_NEAR(here.v[0], 7, 1e-13);
       EXPECT_NEAR(here.rho, 1000, 1e-10);

@@ -219,8 +219,8 @@ struct TwoParticles {
       Term::reads::for_each(set);
     }
   }
-  Pair<2, double, bool> pair(double sign) const {
-    Pair<2, double, bool> ab;
+  Pair<2, double> pair(double sign) const {
+    Pair<2, double> ab;
     ab.dx = sign * dx;
     ab.r_sq = norm_sq(dx);
     ab.r = norm(dx);

@@ -313,8 +313,9 @@ class Compiler {
     const auto function =
         std::find_if(functions.begin(), functions.end(), [&](const auto& entry) { return entry.name == name; });
     if (function == functions.end()) {
-      const bool value = name == "x" || name == "y" || name == "z" || name == "t" || name == "pi" || name == "e" || constants_.contains(name);
-      if (value) fail(begin, fmt::format("'{}' is not a function", name), "write products with '*'");
+      const bool value = name == "x" || name == "y" || name == "z" || name == "t" || name == "pi" || name == "e" ||
+                         constants_.contains(name);
+      if (value) fail(begin, fmt::format("'{}' is not a function", name), "write products with *");
       unknown(name, begin);
     }
     const auto open = at_;
