@@ -117,6 +117,10 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
       read_optional<terms::ArtificialViscosities>(scheme.table("artificial_viscosity"), Preset::artificial, artificial);
   options.xsph =
       read_optional<terms::VelocityCorrections>(scheme.table("xsph"), Preset::xsph, terms::Xsph{Preset::epsilon});
+  options.xsph_target =
+      scheme.table("xsph").choice("acts_on", {"position", "velocity"}, std::string(Preset::xsph_target)) == "velocity"
+          ? XsphTarget::velocity
+          : XsphTarget::position;
   options.strain_dissipation = root.table("output").flag("strain_dissipation", false);
 
   const Table wall = scheme.table("wall");

@@ -6,6 +6,7 @@ namespace undine::integrators {
 // An integrator is a recipe over the moves of a flow. At entry and at exit the rates belong to the state:
 //   drift(dt)    x += (v + XSPH) dt, walls and periods respected        kick(dt)    v += acc dt
 //   compress(dt) rho += drho dt with the rates at hand                  continuity() drho from x and v as they are now
+//   smooth()     v += XSPH, where a case wants that
 //   evaluate()   all rates from the state                               book(dt)    adds the powers of the last
 //   evaluation, times dt
 
@@ -20,6 +21,7 @@ struct Euler {
     flow.kick(dt);
     flow.compress(dt);
     flow.evaluate();
+    flow.smooth();
   }
 };
 

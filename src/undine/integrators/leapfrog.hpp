@@ -22,6 +22,7 @@ struct Leapfrog {
     flow.evaluate();
     flow.correct_kick(dt / 2);
     flow.book(dt / 2);
+    flow.smooth();
   }
 };
 

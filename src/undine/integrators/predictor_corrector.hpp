@@ -23,6 +23,7 @@ struct PredictorCorrector {
     flow.kick(dt / 2);
     flow.compress(dt);
     flow.evaluate();
+    flow.smooth();
   }
 };
 

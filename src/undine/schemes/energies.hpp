@@ -18,7 +18,7 @@ struct Energies {
     double diffusion = 0;   ///< density diffusion
     double exchange = 0;    ///< pressure work not matched by compression: zero for matching pressure and density forms
     double walls = 0;       ///< given to walls: wall particles and reflections
-    double xsph = 0;        ///< moved against gravity by XSPH
+    double xsph = 0;        ///< moved against gravity, or taken from the velocities, by XSPH
     double body = 0;        ///< given to imposed fields (body forces other than uniform gravity)
 
     double sum() const { return viscous + artificial + diffusion + exchange + walls + xsph + body; }

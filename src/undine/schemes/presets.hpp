@@ -16,8 +16,8 @@ struct Recommended {
       "docs/decisions.md"};
   static constexpr std::string_view kernel = "wendland_c2", density = "continuity", pressure = "symmetric",
                                     viscosity = "none", artificial = "monaghan", diffusion = "fourtakas", xsph = "none",
-                                    eos = "tait_sound_speed", wall = "adami", wall_reference = "auto",
-                                    integrator = "leapfrog";
+                                    xsph_target = "position", eos = "tait_sound_speed", wall = "adami",
+                                    wall_reference = "auto", integrator = "leapfrog";
   static constexpr double support_over_spacing = 2.6, alpha = 0.02, epsilon = 0.5, fixed_step = 0;
   static constexpr bool wall_pulls = false, guard = true;
   static constexpr int wall_layers = 0;  ///< 0: as many as the support needs
@@ -31,7 +31,8 @@ struct Saalfeld {
       "Saalfeld (2012), table 2 and ch. 7"};
   static constexpr std::string_view kernel = "wendland_c2", density = "continuity_volume", pressure = "symmetric",
                                     viscosity = "laminar", artificial = "none", diffusion = "none", xsph = "xsph",
-                                    eos = "tait", wall = "combined", wall_reference = "rho_0", integrator = "leapfrog";
+                                    xsph_target = "velocity", eos = "tait", wall = "combined", wall_reference = "rho_0",
+                                    integrator = "leapfrog";
   static constexpr double support_over_spacing = 2.25, alpha = 0.02, epsilon = 0.1, fixed_step = 1e-3;
   static constexpr bool wall_pulls = true, guard = false;
   static constexpr int wall_layers = 1;

@@ -31,6 +31,7 @@ class WeaklyCompressible {
   void continuity();
   void predict_kick(double dt);
   void correct_kick(double dt);
+  void smooth();
   void save();
   void restore();
   void evaluate();

@@ -276,6 +276,7 @@ void WeaklyCompressible<N>::drift(double dt) {
   const auto mass = store_.template get<m>();
   const auto correction = store_.template get<v_xsph>();
   const auto& g = options_.gravity;
+  const bool moves = options_.xsph_target == XsphTarget::position;
   struct Work {
     double xsph = 0, walls = 0;
     Work& operator+=(const Work& o) {
@@ -286,8 +287,9 @@ void WeaklyCompressible<N>::drift(double dt) {
   };
   const Work work = total_over(store_, Group::fluid, [&](std::size_t i) {
     const Vec<N> from = at[i];
-    Vec<N> to = from + dt * (u[i] + correction[i]);
-    Work done{mass[i] * dot(g, dt * correction[i]), 0};
+    const Vec<N> moved = moves ? correction[i] : Vec<N>{};
+    Vec<N> to = from + dt * (u[i] + moved);
+    Work done{mass[i] * dot(g, dt * moved), 0};
     if (options_.reflector) {
       const Bounce<N> bounce = options_.reflector(from, to, u[i]);
       done.walls = mass[i] * (dot(g, bounce.x - to) + 0.5 * (norm_sq(u[i]) - norm_sq(bounce.v)));
@@ -344,6 +346,20 @@ void WeaklyCompressible<N>::correct_kick(double dt) {
   const auto a = store_.template get<acc>();
   const auto old = store_.template get<acc_old>();
   for_each_particle(store_, Group::fluid, [&](std::size_t i) { u[i] += dt * (a[i] - old[i]); });
+}
+
+/// XSPH on the velocity itself: what it takes from the kinetic energy is booked exactly.
+template <int N>
+void WeaklyCompressible<N>::smooth() {
+  if (!options_.xsph || options_.xsph_target != XsphTarget::velocity) return;
+  auto u = store_.template get<v>();
+  const auto correction = store_.template get<v_xsph>();
+  const auto mass = store_.template get<m>();
+  ledger_.xsph += total_over(store_, Group::fluid, [&](std::size_t i) {
+    const Vec<N> old = u[i];
+    u[i] += correction[i];
+    return 0.5 * mass[i] * (norm_sq(old) - norm_sq(u[i]));
+  });
 }
 
 template <int N>

@@ -34,6 +34,9 @@ using Reflector = std::function<Bounce<N>(const Vec<N>& from, const Vec<N>& to, 
 template <int N>
 using BodyForce = std::function<Vec<N>(const Vec<N>& x, double t)>;
 
+/// What XSPH corrects: the velocity that moves particles (Saalfeld 2012, eq. 50), or the velocity itself (his table 2).
+enum class XsphTarget { position, velocity };
+
 /// Every choice of a weakly compressible run, as data.
 template <int N>
 struct WeaklyCompressibleOptions {
@@ -47,6 +50,7 @@ struct WeaklyCompressibleOptions {
   std::optional<OneOf<terms::ViscosityForms>> viscosity;
   std::optional<OneOf<terms::ArtificialViscosities>> artificial;
   std::optional<OneOf<terms::VelocityCorrections>> xsph;
+  XsphTarget xsph_target = XsphTarget::position;
   std::optional<OneOf<terms::DiffusionForms>> diffusion;
 
   walls::WallDensity wall_density = walls::WallDensity::none;
