@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "undine/core/flatten.hpp"
 #include "undine/core/pack.hpp"
 #include "undine/engine/lanes.hpp"
 #include "undine/engine/neighbours.hpp"
@@ -193,8 +194,8 @@ class SweepLoop {
   }
 
   /// Sums of all uses over one list. Everything is inlined here, so that sums and constants stay in registers.
-  [[gnu::flatten]] AllSums sum_over(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a,
-                                    std::span<const std::uint32_t> list) {
+  UNDINE_FLATTEN AllSums sum_over(Group source, const Vec<N, Real>& x_a, Real h_a, const TargetRow& row_a,
+                                  std::span<const std::uint32_t> list) {
     AllSums sums{};
     for (std::size_t at = 0; at < list.size(); at += lanes) one_block(source, x_a, h_a, row_a, list, at, sums);
     return sums;
