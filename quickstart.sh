@@ -21,8 +21,8 @@ Usage: ./quickstart.sh [COMMAND]
   (none)  install what is missing, build build/undine, run the dam break of SPHERIC test 2 into out/spheric2
   build   install what is missing and build build/undine, no more
   test    install what is missing for the tests too, build everything, and run the format check, the structure check,
-          all tests, and the unit tests once more with the address and undefined-behaviour sanitizers;
-          the last line is "N passed, N failed"
+          all tests, a short bench into out/bench.json (not judged), and the unit tests once more with the address and
+          undefined-behaviour sanitizers; the last line is "N passed, N failed"
   help    this text
 
 Packages are installed with apt-get, through sudo where the user is not root. Where nothing is missing, neither is called.
@@ -145,6 +145,11 @@ run_ctest() {
   return "$status"
 }
 
+# A short bench, for the record: a shared machine is too noisy to judge by.
+short_bench() {
+  mkdir -p out && build/undine bench --quick --json >out/bench.json && echo "the figures are in out/bench.json"
+}
+
 run_tests() {
   export OMP_WAIT_POLICY=passive  # two tests at a time share the cores
   step "packages" install_packages "${build_packages[@]}" "${test_packages[@]}"
@@ -153,6 +158,7 @@ run_tests() {
   if step "configure" configure build -DCMAKE_BUILD_TYPE=Release -DUNDINE_SANITIZE=OFF -DUNDINE_TESTS=ON &&
     step "build" build build; then
     step "tests" run_ctest build --exclude-regex '^structure$' || true
+    step "short bench" short_bench || true
   else
     count_fail
   fi

@@ -69,6 +69,23 @@ void read_smoothing(const Table& scheme, double spacing, double preset_ratio, We
       static_cast<Symmetrisation>(std::ranges::find(means, table.choice("mean", means, "arithmetic")) - means.begin());
 }
 
+/// The instruction set of the pair loops. Another number of lanes rounds differently, so a run that is to be the same
+/// bits on another machine names one that both have.
+template <int N>
+void read_instructions(const Table& scheme, WeaklyCompressibleOptions<N>& options) {
+  std::vector<std::string> names{"auto"};
+  names.insert(names.end(), instruction_set_names.begin(), instruction_set_names.end());
+  const auto chosen = std::ranges::find(names, scheme.choice("instructions", names, "auto")) - names.begin();
+  if (chosen == 0) return;
+  const auto set = static_cast<InstructionSet>(chosen - 1);
+  if (!can_run(set))
+    scheme.fail("instructions", fmt::format("this machine cannot run '{}'", names[static_cast<std::size_t>(chosen)]),
+                fmt::format("the widest instruction set here is '{}'",
+                            instruction_set_names[static_cast<std::size_t>(best_instructions())]),
+                "leave the key out, or name a narrower set");
+  options.backend.instructions = options.neighbours.instructions = set;
+}
+
 template <int N>
 void read_backend(const Table& scheme, WeaklyCompressibleOptions<N>& options) {
   const std::vector<std::string> kinds(backend_names.begin(), backend_names.end());
@@ -82,12 +99,16 @@ void read_backend(const Table& scheme, WeaklyCompressibleOptions<N>& options) {
   if (plain && options.backend.precision == PairPrecision::mixed)
     scheme.fail("precision", "the serial and checked backends work in double only", "they define what is right",
                 "set precision = \"double\" or backend = \"threads\"");
+  read_instructions(scheme, options);
   std::vector<std::string> searches;
   for (const Info& info : search_infos()) searches.emplace_back(info.name);
   const Table search = scheme.table("search");
   options.neighbours.search = search.choice("name", searches, "cell_grid");
   options.neighbours.skin = search.in_range("skin", unit::one, {0, 1}, 0.1);
-  options.neighbours.store_lists = search.flag("lists", options.backend.kind == BackendKind::threads);
+  const std::vector<std::string> lists(lists_names.begin(), lists_names.end());
+  options.neighbours.lists = static_cast<Lists>(
+      std::ranges::find(lists, search.choice("lists", lists, plain ? "plain" : "auto")) - lists.begin());
+  options.neighbours.list_memory = 1e6 * search.in_range("list_memory_mb", unit::one, {0, 1e9}, 0);
 }
 
 template <int N, class Preset>

@@ -206,10 +206,28 @@ class Run {
     fmt::print("  evaluation  ");
     const auto& stages = flow_->plan().stages();
     for (std::size_t k = 0; k < stages.size(); ++k) fmt::print("{}{}", k ? " -> " : "", stages[k].name);
-    fmt::print("\n  memory      {:.1f} MB fields, {:.1f} MB neighbour lists\n  output      {}\n",
+    print_path();
+    fmt::print("  memory      {:.1f} MB fields, {:.1f} MB neighbour lists\n  output      {}\n",
                static_cast<double>(flow_->store().bytes()) * 1e-6,
                static_cast<double>(flow_->neighbours().bytes()) * 1e-6, output_.folder.string());
     std::fflush(stdout);
+  }
+
+  /// Which loops every sweep runs, and why: the choice is one for all of them.
+  void print_path() const {
+    const auto& o = setup_.options;
+    const auto& backend = o.backend;
+    if (backend.kind == BackendKind::threads) {
+      const bool best = backend.instructions == best_instructions();
+      fmt::print("\n  sweeps      all in packs of {}, {} instructions ({}), H {}\n",
+                 backend.precision == PairPrecision::mixed ? "float" : "double",
+                 instruction_set_names[static_cast<std::size_t>(backend.instructions)],
+                 best ? "the widest here" : "named by the case", o.rho_law ? "of each pair" : "the same everywhere");
+    } else {
+      fmt::print("\n  sweeps      all one pair at a time in double (backend {})\n",
+                 backend_names[static_cast<std::size_t>(backend.kind)]);
+    }
+    fmt::print("  neighbours  {}\n", flow_->neighbours().describe());
   }
 
   void write_due(double before, EnergySeries<N>& energies, SeriesFile& series, const Step& step) {

@@ -2,6 +2,8 @@
 #include <array>
 #include <string_view>
 
+#include "undine/backend/instructions.hpp"
+
 namespace undine {
 
 /// Who runs the loops. `serial` is plain and defines right; `threads` must agree with it; `checked` is serial, poisons
@@ -16,6 +18,7 @@ inline constexpr std::array<std::string_view, 2> precision_names{"mixed", "doubl
 struct Backend {
   BackendKind kind = BackendKind::threads;
   PairPrecision precision = PairPrecision::mixed;
+  InstructionSet instructions = best_instructions();  ///< of the threads backend; the others use the basic set
 };
 
 }  // namespace undine

@@ -43,7 +43,7 @@ struct Catalogue {
   /// Calls f(Entry{}) for the entry of that index; the index is uniform over a block of pairs, so this is one
   /// predictable jump.
   template <class F>
-  static constexpr decltype(auto) visit(int index, F&& f) {
+  [[gnu::always_inline]] static constexpr decltype(auto) visit(int index, F&& f) {
     return visit_from<0, F, Entries...>(index, f);
   }
 
@@ -54,7 +54,7 @@ struct Catalogue {
 
  private:
   template <int K, class F, class Head, class... Tail>
-  static constexpr decltype(auto) visit_from(int index, F& f) {
+  [[gnu::always_inline]] static constexpr decltype(auto) visit_from(int index, F& f) {
     if constexpr (sizeof...(Tail) == 0) {
       return f(Head{});
     } else {

@@ -16,6 +16,7 @@ class OneOf<Catalogue<Terms...>> {
  public:
   using List = Catalogue<Terms...>;
   using reads = Union<typename Terms::reads...>;
+  using usual_reads = typename std::tuple_element_t<0, std::tuple<Terms...>>::reads;  ///< of the first, the default
   using adds = typename std::tuple_element_t<0, std::tuple<Terms...>>::adds;
   static_assert((std::is_same_v<adds, typename Terms::adds> && ...),
                 "alternatives of one choice add to the same fields");
@@ -56,8 +57,9 @@ class OneOf<Catalogue<Terms...>> {
     return set;
   }
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    return List::visit(index_, [&]<class Term>(Term) { return std::get<Term>(terms_)(a, b, ab); });
+  [[gnu::always_inline]] constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
+    return List::visit(
+        index_, [&]<class Term>(Term) __attribute__((always_inline)) { return std::get<Term>(terms_)(a, b, ab); });
   }
 
  private:

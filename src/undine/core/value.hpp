@@ -20,20 +20,30 @@ constexpr T min(T a, T b) {
   return a < b ? a : b;
 }
 template <std::floating_point T>
-inline T sqrt(T a) {
+constexpr T sqrt(T a) {
   return std::sqrt(a);
 }
 template <std::floating_point T>
-inline T exp(T a) {
+constexpr T exp(T a) {
   return std::exp(a);
 }
 template <std::floating_point T>
-inline T pow(T a, T b) {
+constexpr T pow(T a, T b) {
   return std::pow(a, b);
 }
 template <std::floating_point T>
-inline T abs(T a) {
+constexpr T abs(T a) {
   return std::abs(a);
+}
+
+/// max(a, 0) and min(a, 0), for terms that act on approach or on separation only.
+template <std::floating_point T>
+constexpr T positive_part(const T& a) {
+  return max(a, T(0));
+}
+template <std::floating_point T>
+constexpr T negative_part(const T& a) {
+  return min(a, T(0));
 }
 
 }  // namespace undine

@@ -98,11 +98,11 @@ constexpr auto outer(const Vec<N, A>& a, const Vec<N, B>& b) {
 
 /// Square, cube and whole powers, so that equations read as they are printed.
 template <class T>
-constexpr T sq(const T& a) {
+constexpr auto sq(const T& a) {
   return a * a;
 }
 template <class T>
-constexpr T cube(const T& a) {
+constexpr auto cube(const T& a) {
   return a * a * a;
 }
 

@@ -1,64 +1,65 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "undine/backend/instructions.hpp"
+#include "undine/engine/list_codes.hpp"
+#include "undine/engine/neighbour_list.hpp"
 #include "undine/engine/store.hpp"
+#include "undine/search/pencils.hpp"
 #include "undine/search/search.hpp"
 
 namespace undine {
 
-/// For each target of a group, the indices (in the store) of the particles of a source group within the list radius,
-/// ascending.
-class NeighbourList {
- public:
-  /// Targets that share one array; small enough to balance splashes, large enough to cost nothing.
-  static constexpr std::size_t targets_per_part = 512;
-
-  /// Fills the list in parallel: `find(target, found)` gives the sources of one target, to which `offset` is added.
-  /// Arrays keep their memory from one build to the next.
-  template <class Find>
-  void fill(std::size_t targets, std::size_t offset, Find&& find);
-
-  std::span<const std::uint32_t> of(std::size_t target) const {
-    const Part& part = parts_[target / targets_per_part];
-    const std::size_t t = target % targets_per_part;
-    return {part.indices.data() + part.starts[t], part.starts[t + 1] - part.starts[t]};
-  }
-  std::size_t pairs() const;
-  std::size_t bytes() const;
-
- private:
-  struct Part {
-    std::vector<std::uint32_t> starts, indices;
-  };
-  std::vector<Part> parts_;
+/// Where the neighbours of a target come from. All give the same ones in the same order.
+enum class Lists {
+  automatic,  ///< stored as long as they fit into the memory that they may take, else free
+  stored,     ///< listed once for all sweeps until particles have moved by the skin
+  free,       ///< picked from the cells around whenever they are asked for
+  plain       ///< the named search is asked for each target: the reference
 };
 
-/// Neighbour lists of all groups, with a skin so that they hold while particles move less than half of it. Building
-/// them sorts the particles by space: by cell of the list radius, then by id, so that order depends on positions alone
+inline constexpr std::array<std::string_view, 4> lists_names{"auto", "stored", "free", "plain"};
+
+/// Neighbours of all particles within the list radius, which has a skin so that they hold while particles move less
+/// than half of it. A build sorts the particles by cells of space, then by id, so that order depends on positions alone
 /// and not on history.
 template <int N>
 class Neighbours {
  public:
   struct Options {
     std::string search = "cell_grid";
-    double skin = 0.1;        ///< extra list radius as a fraction of the support radius
-    bool store_lists = true;  ///< false: each query asks the search (the serial reference)
+    double skin = 0.1;  ///< extra list radius as a fraction of the support radius
+    Lists lists = Lists::automatic;
+    InstructionSet instructions = best_instructions();
+    double list_memory = 0;  ///< bytes that automatic lists may take; 0: a quarter of the machine's memory
   };
 
   Neighbours(const Domain<N>& domain, Options options);
 
-  /// Sorts the store, remembers the positions in x_list, and builds search and lists for pairs closer than `support`.
+  /// Sorts the store, remembers the positions in x_list, and finds pairs closer than `support`.
   void build(Store<N>& store, double support);
-  /// Builds search and lists from x_list as it stands, without sorting: after reading a checkpoint.
+  /// Finds pairs from x_list as it stands, without sorting: after reading a checkpoint.
   void rebuild_from_list_positions(Store<N>& store, double support);
   /// Whether some particle moved, or the support grew, further than the skin allows.
   bool stale(const Store<N>& store, double support) const;
 
-  /// Sources of one target (index within its group) as store indices. `scratch` holds the answer when no lists are
-  /// stored.
+  /// Work space of one thread, which holds what was found where no lists are stored. Targets that lie in one cell are
+  /// found together: ask for one after the other.
+  class Scratch;
+
+  /// Sources of one target (index within its group) as store indices, valid until the next call with the same scratch;
+  /// walls have no wall neighbours.
+  std::span<const std::uint32_t> of(Group target_group, std::size_t target, Group source_group, const Store<N>& store,
+                                    Scratch& scratch) const {
+    if (stored_) return list(target_group, source_group).of(target);
+    return find(target_group, target, source_group, store, scratch);
+  }
+  /// For single questions: the list in `scratch`.
   std::span<const std::uint32_t> of(Group target_group, std::size_t target, Group source_group, const Store<N>& store,
                                     std::vector<std::uint32_t>& scratch) const;
   /// Particles of a group that may lie within the support radius of a point.
@@ -66,12 +67,32 @@ class Neighbours {
 
   double support() const { return support_; }
   double list_radius() const { return list_radius_; }
+  /// Whether lists are stored since the last build.
+  bool stored() const { return stored_; }
+  /// What the last build chose and why, for people.
+  std::string describe() const;
   std::size_t bytes() const;
+  /// Pairs on the stored lists; 0 if none are stored.
   std::size_t pair_count(Group target, Group source) const { return list(target, source).pairs(); }
+  /// Wall-clock time of all builds: sorting, and listing.
+  double seconds_sort() const { return seconds_sort_; }
+  double seconds_lists() const { return seconds_lists_; }
 
  private:
+  class CellFinder;
+  class SearchFinder;
+
+  void start(double support, const Box<N>& box, std::size_t particles);
   void sort_by_space(Store<N>& store);
-  void build_lists(Store<N>& store);
+  void build_lists(const Store<N>& store);
+  double list_bytes_allowed() const;
+  /// Bytes of all lists, from a sample of targets.
+  double estimated_list_bytes(const Store<N>& store) const;
+  /// Calls f(make_finder) for the finder in use.
+  template <class F>
+  decltype(auto) with_finder(Group target, Group source, const Store<N>& store, F&& f) const;
+  std::span<const std::uint32_t> find(Group target_group, std::size_t target, Group source_group, const Store<N>& store,
+                                      Scratch& scratch) const;
   const NeighbourList& list(Group target, Group source) const {
     return lists_[static_cast<int>(target)][static_cast<int>(source)];
   }
@@ -79,8 +100,33 @@ class Neighbours {
   Domain<N> domain_;
   Options options_;
   double support_ = 0, list_radius_ = 0;
+  CellFrame<N> frame_;
+  typename CellFrame<N>::Cell reach_;
+  Pencils<N> pencils_[group_count];
+  ListCodes<N> codes_;
+  PairTest<N> test_{};
+  bool ask_search_ = false;  ///< whether each target asks the named search
+  bool far_apart_ = false;   ///< whether cells are so wide that candidates do not fit 16 bits: all are tested singly
+  bool stored_ = false;
+  double list_bytes_needed_ = 0;  ///< estimated, where lists are automatic
   std::unique_ptr<NeighbourSearch<N>> searches_[group_count];
   NeighbourList lists_[group_count][group_count];
+  std::uint64_t builds_ = 0;
+  double seconds_sort_ = 0, seconds_lists_ = 0;
+};
+
+template <int N>
+class Neighbours<N>::Scratch {
+  friend class Neighbours;
+  struct Batch {
+    std::size_t first = 0, last = 0;  ///< targets
+    std::vector<std::uint32_t> found, ends;
+  };
+  const Neighbours* owner_ = nullptr;
+  std::uint64_t build_ = 0;
+  Group target_group_{};
+  Batch batches_[group_count];
+  std::vector<Candidates<N>> runs_;
 };
 
 extern template class Neighbours<1>;

@@ -18,6 +18,7 @@ struct PairBase {
   V r_sq;
   V support;                   ///< support radius H of the pair
   V h;                         ///< smoothing length h = H / kappa of the pair
+  V inv_r_sq;                  ///< 1/(r^2 + 0.01 h^2), which is finite at r = 0; Monaghan (1992), eq. 4.2
   decltype(V() < V()) inside;  ///< r < H; only maxima need it, sums vanish by themselves
 };
 
@@ -29,11 +30,15 @@ struct Pair : PairBase<N, V> {
   const KernelChoice* kernel;
 
   /// The Laplacian of W, evaluated where a term asks for it.
-  V laplacian_w() const {
+  constexpr V laplacian_w() const {
     V scale = sq(this->support);
     for (int k = 0; k < N; ++k) scale = scale * this->support;
-    return kernel->template laplacian<N>(this->r / this->support) / scale;
+    return laplacian_of(*kernel, this->r / this->support) / scale;
   }
+
+ private:
+  /// Not inlined: few terms ask for it, and every kernel stands in it.
+  [[gnu::noinline]] static constexpr V laplacian_of(KernelChoice choice, V R) { return choice.laplacian<N>(R); }
 };
 
 }  // namespace undine

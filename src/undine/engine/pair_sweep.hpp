@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -7,10 +8,26 @@
 #include <omp.h>
 
 #include "undine/backend/backend.hpp"
+#include "undine/core/aligned.hpp"
 #include "undine/core/error.hpp"
 #include "undine/engine/sweep.hpp"
 
 namespace undine {
+
+/// Memory for the records of a sweep, kept from one run of it to the next.
+struct SweepRecords {
+  AlignedVector<float> single;
+  AlignedVector<double> twice;
+};
+
+/// The loops of a sweep, compiled for the instruction set `Tag`; engine/sweep_loop.hpp defines them.
+template <class Tag, int N, class... Uses>
+struct SweepEntry {
+  using Loop = void(const SweepContext<N>&, std::tuple<Uses...>&, SweepRecords&, Group target, Booking);
+  static Loop mixed;      ///< packs of floats
+  static Loop in_double;  ///< packs of doubles
+  static Loop plain;      ///< one double after the other
+};
 
 /// A named sweep over pairs: its terms, the group it is for, and the backends it can run on.
 template <int N, class... Uses>
@@ -29,8 +46,11 @@ class PairSweep {
 
   const std::string& name() const { return name_; }
   Group target() const { return target_; }
-  static FieldSet reads() { return Union<typename Uses::Term::reads...>::set(); }
-  static FieldSet target_reads() { return (target_reads_of<typename Uses::Term>() | ...); }
+  /// What the terms read as they are set, so that fields of other alternatives need not exist.
+  FieldSet reads() const {
+    return std::apply([](const auto&... use) { return (reads_in_use(use) | ... | FieldSet{}); }, uses_);
+  }
+  FieldSet target_reads() const { return (target_reads_of<typename Uses::Term>() | ...) & reads(); }
   static FieldSet adds() { return Union<typename Uses::Term::adds...>::set(); }
 
   void run(const SweepContext<N>& context, const Backend& backend) {
@@ -42,11 +62,11 @@ class PairSweep {
         run_checked(context);
         break;
       case BackendKind::threads:
-        if (backend.precision == PairPrecision::mixed) {
-          SweepLoop<N, Pack<float>, Uses...>(context, uses_, records_float_).run(target_, booking_);
-        } else {
-          SweepLoop<N, Pack<double>, Uses...>(context, uses_, records_double_).run(target_, booking_);
-        }
+        with_instructions(backend.instructions, [&]<class Tag>() {
+          using Loops = SweepEntry<Tag, N, Uses...>;
+          const auto loop = backend.precision == PairPrecision::mixed ? &Loops::mixed : &Loops::in_double;
+          loop(context, uses_, records_, target_, booking_);
+        });
         break;
     }
   }
@@ -55,7 +75,9 @@ class PairSweep {
   void run_serial(const SweepContext<N>& context) {
     const int threads = omp_get_max_threads();
     omp_set_num_threads(1);
-    SweepLoop<N, double, Uses...>(context, uses_, records_double_).run(target_, booking_);
+    with_instructions(InstructionSet::basic, [&]<class Tag>() {
+      SweepEntry<Tag, N, Uses...>::plain(context, uses_, records_, target_, booking_);
+    });
     omp_set_num_threads(threads);
   }
 
@@ -104,8 +126,7 @@ class PairSweep {
   Group target_;
   Booking booking_;
   std::tuple<Uses...> uses_;
-  std::vector<float> records_float_;
-  std::vector<double> records_double_;
+  SweepRecords records_;
 };
 
 }  // namespace undine

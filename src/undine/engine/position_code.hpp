@@ -35,7 +35,7 @@ class PositionCode<N, double> {
     const V shifted = select(d > V(0.5 * period), d - V(period), d);
     return select(shifted < V(-0.5 * period), shifted + V(period), shifted);
   }
-  const Domain<N>& domain_;
+  Domain<N> domain_;
 };
 
 template <int N>

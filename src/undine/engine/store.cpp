@@ -5,12 +5,26 @@
 namespace undine {
 namespace {
 
-/// Rows of `width` numbers: row k of the range takes what was in row order[k].
-template <class T>
-void permute_rows(T* rows, std::size_t width, std::span<const std::uint32_t> order) {
-  const std::vector<T> old(rows, rows + order.size() * width);
-#pragma omp parallel for schedule(static)
-  for (std::size_t k = 0; k < order.size(); ++k) std::copy_n(old.data() + order[k] * width, width, rows + k * width);
+/// Rows of `width` numbers: row begin + k takes what was in row begin + order[k]. `spare` is work space, which may
+/// change places with the data.
+template <int width, class T>
+void permute_rows(std::vector<T>& data, std::size_t begin, std::span<const std::uint32_t> order,
+                  std::vector<T>& spare) {
+  const std::size_t count = order.size() * width;
+  spare.resize(count);
+  T* const rows = data.data() + begin * width;
+  const bool all = data.size() == count;
+#pragma omp parallel
+  {
+#pragma omp for schedule(static)
+    for (std::size_t k = 0; k < order.size(); ++k)
+      for (int c = 0; c < width; ++c) spare[k * width + c] = rows[std::size_t{order[k]} * width + c];
+    if (!all) {
+#pragma omp for schedule(static)
+      for (std::size_t k = 0; k < count; ++k) rows[k] = spare[k];
+    }
+  }
+  if (all) data.swap(spare);
 }
 
 template <class T>
@@ -68,11 +82,14 @@ template <int N>
 void Store<N>::permute(Group group, std::span<const std::uint32_t> order) {
   const IndexRange r = range(group);
   for (int f = 0; f < FieldId::count; ++f) {
-    const std::size_t width = all_fields[f].components(N);
-    if (fields_[f]) permute_rows(data_[f].data() + r.begin * width, width, order);
+    if (!fields_[f]) continue;
+    const int width = all_fields[f].components(N);
+    if (width == 1) permute_rows<1>(data_[f], r.begin, order, spare_scalars_);
+    if (width == N && N > 1) permute_rows<N>(data_[f], r.begin, order, spare_vectors_);
+    if (width == N * N && N > 1) permute_rows<N * N>(data_[f], r.begin, order, spare_tensors_);
   }
-  permute_rows(ids_.data() + r.begin, 1, order);
-  permute_rows(materials_.data() + r.begin, 1, order);
+  permute_rows<1>(ids_, r.begin, order, spare_ids_);
+  permute_rows<1>(materials_, r.begin, order, spare_materials_);
 }
 
 template <int N>
@@ -84,6 +101,9 @@ template <int N>
 std::size_t Store<N>::bytes() const {
   std::size_t total = ids_.capacity() * sizeof(std::int64_t) + materials_.capacity() * sizeof(std::int32_t);
   for (const auto& data : data_) total += data.capacity() * sizeof(double);
+  for (const auto* spare : {&spare_scalars_, &spare_vectors_, &spare_tensors_})
+    total += spare->capacity() * sizeof(double);
+  total += spare_ids_.capacity() * sizeof(std::int64_t) + spare_materials_.capacity() * sizeof(std::int32_t);
   return total;
 }
 

@@ -31,7 +31,8 @@ class Store {
   std::size_t append(Group group, std::size_t n, int material);
   /// Removes the particles whose flag is set (flags.size() == size()).
   void remove(const std::vector<char>& flags);
-  /// Reorders one group: new position k of the group takes what was at order[k] (indices within the group).
+  /// Reorders one group: new position k of the group takes what was at order[k] (indices within the group). Spans of
+  /// before are not valid any more.
   void permute(Group group, std::span<const std::uint32_t> order);
 
   std::size_t size() const { return ids_.size(); }
@@ -67,6 +68,10 @@ class Store {
   std::vector<std::int32_t> materials_;
   std::array<std::size_t, group_count> counts_{};
   std::int64_t next_id_ = 0;
+  // Work space of permute, kept because fresh memory is slow.
+  std::vector<double> spare_scalars_, spare_vectors_, spare_tensors_;
+  std::vector<std::int64_t> spare_ids_;
+  std::vector<std::int32_t> spare_materials_;
 };
 
 extern template class Store<1>;

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "undine/engine/store.hpp"
@@ -36,13 +38,26 @@ auto total_over(const Store<N>& store, Group group, F&& f) {
   return total;
 }
 
-/// Largest f(i) over a group; `lowest` when the group is empty.
-template <int N, class F>
-double largest_over(const Store<N>& store, Group group, double lowest, F&& f) {
+/// Largest f(i) over a group, component by component where f gives vectors; `lowest` when the group is empty.
+template <int N, class Value, class F>
+Value largest_over(const Store<N>& store, Group group, const Value& lowest, F&& f) {
+  const auto join = [](Value& largest, const Value& value) {
+    if constexpr (is_vec<Value>) {
+      for (std::size_t k = 0; k < std::size(largest.c); ++k) largest.c[k] = std::max(largest.c[k], value.c[k]);
+    } else {
+      largest = std::max(largest, value);
+    }
+  };
   const IndexRange r = store.range(group);
-  double largest = lowest;
-#pragma omp parallel for reduction(max : largest) schedule(static)
-  for (std::size_t i = r.begin; i < r.end; ++i) largest = std::max(largest, static_cast<double>(f(i)));
+  Value largest = lowest;
+#pragma omp parallel
+  {
+    Value part = lowest;
+#pragma omp for schedule(static) nowait
+    for (std::size_t i = r.begin; i < r.end; ++i) join(part, f(i));
+#pragma omp critical(undine_largest_over)
+    join(largest, part);
+  }
   return largest;
 }
 

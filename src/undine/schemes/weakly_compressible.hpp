@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
-#include "undine/engine/pair_sweep.hpp"
 #include "undine/engine/plan.hpp"
 #include "undine/engine/update.hpp"
 #include "undine/schemes/energies.hpp"
 #include "undine/schemes/weakly_compressible_options.hpp"
+#include "undine/schemes/weakly_compressible_sweeps.hpp"
 
 namespace undine {
 
@@ -65,16 +65,7 @@ class WeaklyCompressible {
   const Vec<N>& potential_origin() const { return potential_origin_; }
 
  private:
-  static constexpr auto d = KernelRole::density;
-  static constexpr auto pr = KernelRole::pressure;
-  static constexpr auto vi = KernelRole::viscosity;
-  using ContinuityUse = Use<OneOf<terms::ContinuityForms>, pr>;
-  using PressureUse = Use<OneOf<terms::PressureForms>, pr>;
-  using ViscosityUse = Use<OneOf<terms::ViscosityForms>, vi>;
-  using ArtificialUse = Use<OneOf<terms::ArtificialViscosities>, vi>;
-  using XsphUse = Use<OneOf<terms::VelocityCorrections>, d>;
-  using DiffusionUse = Use<OneOf<terms::DiffusionForms>, d>;
-  using ApproachUse = Use<terms::ApproachSpeed, d>;
+  using Sweeps = WeaklyCompressibleSweeps<N>;
 
   void configure();
   void make_plan();
@@ -109,17 +100,16 @@ class WeaklyCompressible {
   long list_builds_ = 0;
   double seconds_lists_ = 0, seconds_sweeps_ = 0;
 
-  PairSweep<N, PressureUse, ContinuityUse, ViscosityUse, ArtificialUse, DiffusionUse, XsphUse, ApproachUse> force_{
-      "force", Group::fluid, Booking::on};
-  PairSweep<N, ContinuityUse> continuity_{"continuity", Group::fluid};
-  PairSweep<N, ContinuityUse> wall_continuity_{"wall continuity", Group::wall};
-  PairSweep<N, Use<terms::Summation, d>> summation_{"summation", Group::fluid};
-  PairSweep<N, Use<terms::ShepardSum, d>> shepard_{"shepard sum", Group::fluid};
-  PairSweep<N, Use<terms::Summation, d>> wall_summation_{"wall summation", Group::wall};
-  PairSweep<N, Use<terms::WallExtrapolation, d>> wall_pressure_{"wall pressure", Group::wall};
-  PairSweep<N, Use<terms::DensityGradient, d>> gradient_{"density gradient", Group::fluid};
-  PairSweep<N, Use<terms::VelocityGradient, d>> strain_{"velocity gradient", Group::fluid};
-  PairSweep<N, PressureUse, ViscosityUse, ArtificialUse> wall_force_{"wall force", Group::wall};
+  typename Sweeps::Force force_{"force", Group::fluid, Booking::on};
+  typename Sweeps::Continuity continuity_{"continuity", Group::fluid};
+  typename Sweeps::Continuity wall_continuity_{"wall continuity", Group::wall};
+  typename Sweeps::Summation summation_{"summation", Group::fluid};
+  typename Sweeps::Shepard shepard_{"shepard sum", Group::fluid};
+  typename Sweeps::Summation wall_summation_{"wall summation", Group::wall};
+  typename Sweeps::WallPressure wall_pressure_{"wall pressure", Group::wall};
+  typename Sweeps::Gradient gradient_{"density gradient", Group::fluid};
+  typename Sweeps::Strain strain_{"velocity gradient", Group::fluid};
+  typename Sweeps::WallForce wall_force_{"wall force", Group::wall};
 };
 
 extern template class WeaklyCompressible<1>;

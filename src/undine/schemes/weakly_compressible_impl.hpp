@@ -1,9 +1,8 @@
 #pragma once
 // The definitions of WeaklyCompressible<N>, compiled once for each N in weakly_compressible_Nd.cpp.
-#include <chrono>
-
 #include <fmt/format.h>
 
+#include "undine/core/stopwatch.hpp"
 #include "undine/schemes/particle_rules.hpp"
 #include "undine/schemes/weakly_compressible.hpp"
 
@@ -12,19 +11,6 @@ namespace {
 
 using namespace field;
 using walls::WallDensity;
-
-/// Adds the seconds it lives to a total.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& total_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 
@@ -54,21 +40,16 @@ void WeaklyCompressible<N>::configure() {
   // A summed density changes as its derivative says, whichever continuity form the case names.
   if (options_.density != DensityForm::evolved) continuity.choose(terms::ContinuityForms::index<terms::Continuity>());
 
-  force_.template use<0>() = {options_.pressure, true, {true, walls}, {}};
-  force_.template use<1>() = {continuity, true, {true, walls}, {}};
-  force_.template use<2>() = {options_.viscosity.value_or(OneOf<terms::ViscosityForms>{}),
-                              options_.viscosity.has_value(),
-                              {true, friction},
-                              {}};
-  force_.template use<3>() = {options_.artificial.value_or(OneOf<terms::ArtificialViscosities>{}),
-                              options_.artificial.has_value(),
-                              {true, friction},
-                              {}};
-  force_.template use<4>() = {
-      options_.diffusion.value_or(OneOf<terms::DiffusionForms>{}), diffuses(), {true, false}, {}};
-  force_.template use<5>() = {
-      options_.xsph.value_or(OneOf<terms::VelocityCorrections>{}), options_.xsph.has_value(), {true, false}, {}};
-  force_.template use<6>() = {{}, true, {true, walls}, {}};
+  const auto chosen = []<class Term>(const std::optional<Term>& term) { return term.value_or(Term{}); };
+  force_.template use<Sweeps::approach>() = {{}, true, {true, walls}, {}};
+  force_.template use<Sweeps::pressure>() = {options_.pressure, true, {true, walls}, {}};
+  force_.template use<Sweeps::continuity>() = {continuity, true, {true, walls}, {}};
+  force_.template use<Sweeps::artificial>() = {
+      chosen(options_.artificial), options_.artificial.has_value(), {true, friction}, {}};
+  force_.template use<Sweeps::diffusion>() = {chosen(options_.diffusion), diffuses(), {true, false}, {}};
+  force_.template use<Sweeps::xsph>() = {chosen(options_.xsph), options_.xsph.has_value(), {true, false}, {}};
+  force_.template use<Sweeps::viscosity>() = {
+      chosen(options_.viscosity), options_.viscosity.has_value(), {true, friction}, {}};
   continuity_.template use<0>() = {continuity, true, {true, walls}, {}};
   wall_continuity_.template use<0>() = {continuity, true, {true, false}, {}};
   summation_.template use<0>() = {{}, true, {true, walls}, {}};
@@ -77,13 +58,13 @@ void WeaklyCompressible<N>::configure() {
   wall_pressure_.template use<0>() = {{}, true, {true, false}, {}};
   gradient_.template use<0>() = {{}, true, {true, false}, {}};
   strain_.template use<0>() = {{}, true, {true, friction}, {}};
-  auto& fourtakas = force_.template use<4>().term.template get<terms::DiffusionFourtakas>();
+  auto& fourtakas = force_.template use<Sweeps::diffusion>().term.template get<terms::DiffusionFourtakas>();
   auto& extrapolation = wall_pressure_.template use<0>().term;
   for (int k = 0; k < N; ++k) extrapolation.gravity[k] = fourtakas.gravity[k] = options_.gravity[k];
 
   wall_force_.template use<0>() = {options_.pressure, true, {true, false}, {}};
-  wall_force_.template use<1>() = {force_.template use<2>().term, options_.viscosity && friction, {true, false}, {}};
-  wall_force_.template use<2>() = {force_.template use<3>().term, options_.artificial && friction, {true, false}, {}};
+  wall_force_.template use<1>() = {chosen(options_.viscosity), options_.viscosity && friction, {true, false}, {}};
+  wall_force_.template use<2>() = {chosen(options_.artificial), options_.artificial && friction, {true, false}, {}};
 }
 
 /// What one evaluation of the rates consists of. The order follows from what the stages read and write.
@@ -122,8 +103,7 @@ void WeaklyCompressible<N>::make_plan() {
   FieldSet given_fields = Fields<x, v, m, rho, h, rho_0, mu, rho_wall, x_list>::set();
   Resources given;
   for (const Group g : all_groups) given.add(g, given_fields);
-  FieldSet used =
-      given_fields | Fields<p, c, acc, drho, drho_diff, v_xsph, mu_cfl, acc_old, x_start, v_start, rho_start>::set();
+  FieldSet used = given_fields | Fields<p, c, acc, drho, drho_diff, v_xsph, mu_cfl>::set();
   for (const auto& stage : plan_.stages()) used |= stage.reads.fields() | stage.writes.fields();
   store_.allocate(used);
   // Terms that are not in use leave these at zero, and so do walls.
@@ -189,9 +169,9 @@ template <int N>
 template <class Sweep>
 void WeaklyCompressible<N>::add_sweep(Sweep& sweep, bool from_walls) {
   const FieldSet place = Fields<x, h>::set();
-  Resources reads(Group::fluid, Sweep::reads() | place);
-  if (from_walls) reads.add(Group::wall, Sweep::reads() | place);
-  reads.add(sweep.target(), Sweep::target_reads() | place);
+  Resources reads(Group::fluid, sweep.reads() | place);
+  if (from_walls) reads.add(Group::wall, sweep.reads() | place);
+  reads.add(sweep.target(), sweep.target_reads() | place);
   plan_.add({sweep.name(), reads, Resources(sweep.target(), Sweep::adds()), [this, &sweep] { run(sweep); }});
 }
 
@@ -206,7 +186,7 @@ template <int N>
 SweepContext<N> WeaklyCompressible<N>::context() {
   Support support = options_.support;
   support.per_particle = options_.rho_law;
-  return {store_, neighbours_, domain_, support, options_.kernels};
+  return {store_, neighbours_, domain_, support, options_.kernels, options_.materials.front().rho_0};
 }
 
 template <int N>
@@ -334,6 +314,7 @@ void WeaklyCompressible<N>::continuity() {
 
 template <int N>
 void WeaklyCompressible<N>::predict_kick(double dt) {
+  store_.allocate(Fields<acc_old>::set());
   auto old = store_.template get<acc_old>();
   const auto a = store_.template get<acc>();
   for_each_particle(store_, Group::fluid, [&](std::size_t i) { old[i] = a[i]; });
@@ -364,6 +345,7 @@ void WeaklyCompressible<N>::smooth() {
 
 template <int N>
 void WeaklyCompressible<N>::save() {
+  store_.allocate(Fields<x_start, v_start, rho_start>::set());
   std::ranges::copy(store_.template get<x>(), store_.template get<x_start>().begin());
   std::ranges::copy(store_.template get<v>(), store_.template get<v_start>().begin());
   std::ranges::copy(store_.template get<rho>(), store_.template get<rho_start>().begin());
@@ -383,11 +365,11 @@ void WeaklyCompressible<N>::restore() {
 template <int N>
 void WeaklyCompressible<N>::book(double dt) {
   constexpr int fluid = 0, wall = 1;
-  const Power& pressure = force_.template use<0>().power;
-  const Power& compression = force_.template use<1>().power;
-  const Power& viscous = force_.template use<2>().power;
-  const Power& artificial = force_.template use<3>().power;
-  const Power& diffusion = force_.template use<4>().power;
+  const Power& pressure = force_.template use<Sweeps::pressure>().power;
+  const Power& compression = force_.template use<Sweeps::continuity>().power;
+  const Power& viscous = force_.template use<Sweeps::viscosity>().power;
+  const Power& artificial = force_.template use<Sweeps::artificial>().power;
+  const Power& diffusion = force_.template use<Sweeps::diffusion>().power;
   ledger_.viscous -= dt * viscous[fluid];
   ledger_.artificial -= dt * artificial[fluid];
   ledger_.diffusion -= dt * diffusion[fluid];
@@ -407,18 +389,21 @@ Step WeaklyCompressible<N>::stable_step(const StepLimits& limits) const {
   const auto viscosity = store_.template get<mu>();
   const auto density = store_.template get<rho>();
   const double kappa = options_.support.kappa;
-  const auto fastest = [&](auto&& rate) { return largest_over(store_, Group::fluid, 0.0, rate); };
+  const bool viscous = options_.viscosity.has_value();
+  // All limits in one pass, which memory bounds.
+  const auto fastest = largest_over(store_, Group::fluid, Vec<3>{}, [&](std::size_t i) {
+    const double rate = kappa / H[i];
+    return Vec<3>{{(sound[i] + approach[i]) * rate, norm_sq(a[i]) * sq(rate),
+                   viscous ? viscosity[i] / density[i] * sq(rate) : 0.0}};
+  });
 
   Step step{limits.largest, "largest"};
   const auto limit = [&](double dt, const char* name) {
     if (dt < step.dt) step = {dt, name};
   };
-  limit(limits.courant / fastest([&](std::size_t i) { return (sound[i] + approach[i]) * kappa / H[i]; }), "courant");
-  limit(limits.force / std::sqrt(fastest([&](std::size_t i) { return std::sqrt(norm_sq(a[i])) * kappa / H[i]; })),
-        "force");
-  if (options_.viscosity)
-    limit(limits.viscous / fastest([&](std::size_t i) { return viscosity[i] / density[i] * sq(kappa / H[i]); }),
-          "viscous");
+  limit(limits.courant / fastest[0], "courant");
+  limit(limits.force / std::sqrt(std::sqrt(fastest[1])), "force");
+  if (viscous) limit(limits.viscous / fastest[2], "viscous");
   return step;
 }
 

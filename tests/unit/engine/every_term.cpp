@@ -1,11 +1,12 @@
+// The pair loops of every term, compiled once for each instruction set: cmake/instruction_sets.cmake.
 #include "unit/engine/every_term.hpp"
 
-// The pair loops of every term, compiled once for all tests.
+#include "undine/engine/sweep_loop.hpp"
 
 namespace undine {
 
-template void test::EveryTerm<1>::run(const SweepContext<1>&, const Backend&);
-template void test::EveryTerm<2>::run(const SweepContext<2>&, const Backend&);
-template void test::EveryTerm<3>::run(const SweepContext<3>&, const Backend&);
+template struct CompiledSweep<test::EveryTerm<1>>;
+template struct CompiledSweep<test::EveryTerm<2>>;
+template struct CompiledSweep<test::EveryTerm<3>>;
 
 }  // namespace undine

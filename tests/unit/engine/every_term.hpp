@@ -67,11 +67,3 @@ void use_only(EveryTerm<N>& sweep, const Term& term, std::array<bool, group_coun
 }
 
 }  // namespace undine::test
-
-namespace undine {
-
-extern template void test::EveryTerm<1>::run(const SweepContext<1>&, const Backend&);
-extern template void test::EveryTerm<2>::run(const SweepContext<2>&, const Backend&);
-extern template void test::EveryTerm<3>::run(const SweepContext<3>&, const Backend&);
-
-}  // namespace undine

@@ -4,74 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/engine/crowd.hpp"
+#include "unit/engine/neighbour_lists.hpp"
 
 namespace undine {
-namespace {
 
-using test::Crowd;
-using test::make_crowd;
-using test::Random;
+using namespace test;
 
-template <int N>
-constexpr int side = N == 1   ? 60
-                     : N == 2 ? 14
-                              : 9;
-
-/// Calls f.operator()<N>(crowd) for open and periodic crowds in every dimension.
-template <class F>
-void for_crowds(F f) {
-  const auto in_dimension = [&]<int N>() {
-    for (const bool periodic : {false, true}) {
-      SCOPED_TRACE(std::to_string(N) + (periodic ? "-D periodic" : "-D open"));
-      f.template operator()<N>(make_crowd<N>({.side = side<N>, .wall_layers = 2, .periodic = periodic}));
-    }
-  };
-  in_dimension.template operator()<1>();
-  in_dimension.template operator()<2>();
-  in_dimension.template operator()<3>();
-}
-
-template <int N>
-Neighbours<N> lists_of(Crowd<N>& crowd, const std::string& search = "cell_grid", bool store_lists = true) {
-  Neighbours<N> neighbours(crowd.domain, {.search = search, .skin = 0.15, .store_lists = store_lists});
-  neighbours.build(crowd.store, crowd.support);
-  return neighbours;
-}
-
-/// Pairs of groups that act on each other.
-constexpr std::pair<Group, Group> group_pairs[] = {
-    {Group::fluid, Group::fluid}, {Group::fluid, Group::wall}, {Group::wall, Group::fluid}};
-
-template <int N>
-std::vector<std::uint32_t> within(const Crowd<N>& crowd, const Vec<N>& at, Group group, double radius) {
-  std::vector<std::uint32_t> found;
-  const auto x = crowd.store.template get<field::x>();
-  for (std::size_t i = crowd.store.range(group).begin; i < crowd.store.range(group).end; ++i)
-    if (norm_sq(crowd.domain.nearest_image(at - x[i])) < sq(radius)) found.push_back(static_cast<std::uint32_t>(i));
-  return found;
-}
-
-// Criterion: exactly the pairs nearer than the list radius, ascending, whatever the search and whether lists are
-// stored.
 TEST(Neighbours, ListsAreAllPairsWithinTheListRadius) {
-  for_crowds([]<int N>(const Crowd<N>& made) {
-    for (const auto& info : search_infos())
-      for (const bool store_lists : {true, false}) {
-        auto crowd = made;
-        const auto neighbours = lists_of(crowd, std::string(info.name), store_lists);
-        EXPECT_DOUBLE_EQ(neighbours.list_radius(), 1.15 * crowd.support);
-        std::vector<std::uint32_t> scratch;
-        for (const auto& [target, source] : group_pairs) {
-          const IndexRange targets = crowd.store.range(target);
-          for (std::size_t t = 0; t < targets.size(); ++t) {
-            const auto list = neighbours.of(target, t, source, crowd.store, scratch);
-            const auto x = crowd.store.template get<field::x>()[targets.begin + t];
-            ASSERT_TRUE(std::ranges::equal(list, within(crowd, x, source, neighbours.list_radius()))) << info.name;
-          }
-        }
-      }
-  });
+  for_crowds([]<int N>(const Crowd<N>& made) { expect_all_pairs(made); });
 }
 
 // Criterion: after moves of just under half the skin, every pair within the support is still in the lists, and they are
@@ -90,7 +30,7 @@ TEST(Neighbours, ListsHoldWhileParticlesMoveLessThanHalfTheSkin) {
     }
     EXPECT_FALSE(neighbours.stale(crowd.store, crowd.support));
     EXPECT_TRUE(neighbours.stale(crowd.store, 1.01 * crowd.support));
-    std::vector<std::uint32_t> scratch;
+    typename Neighbours<N>::Scratch scratch;
     for (const auto& [target, source] : group_pairs) {
       const IndexRange targets = crowd.store.range(target);
       for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -131,48 +71,112 @@ TEST(Neighbours, AreStaleBeforeTheFirstBuild) {
   EXPECT_TRUE(neighbours.stale(crowd.store, crowd.support));
 }
 
-// Criterion: the same order of ids from any order before, and equal cells side by side in that order.
+// Criterion: the same order of ids from any order before and for any number of threads.
 TEST(Neighbours, SortingDoesNotDependOnThePreviousOrder) {
   for_crowds([]<int N>(const Crowd<N>& made) {
-    auto first = made, second = made;
-    Random random(5);
-    for (const Group group : all_groups) second.store.permute(group, random.shuffled(second.store.range(group).size()));
+    auto first = made;
     lists_of(first);
-    lists_of(second);
-    EXPECT_TRUE(std::ranges::equal(first.store.ids(), second.store.ids()));
-    EXPECT_TRUE(std::ranges::equal(first.store.raw(field::x::id), second.store.raw(field::x::id)));
-    lists_of(second);
-    EXPECT_TRUE(std::ranges::equal(first.store.ids(), second.store.ids())) << "sorted twice";
+    Random random(5);
+    for (const int threads : {1, 2, 4}) {
+      const Threads use(threads);
+      auto second = made;
+      for (const Group group : all_groups)
+        second.store.permute(group, random.shuffled(second.store.range(group).size()));
+      lists_of(second);
+      EXPECT_TRUE(std::ranges::equal(first.store.ids(), second.store.ids()));
+      EXPECT_TRUE(std::ranges::equal(first.store.raw(field::x::id), second.store.raw(field::x::id)));
+      lists_of(second);
+      EXPECT_TRUE(std::ranges::equal(first.store.ids(), second.store.ids())) << "sorted twice";
+    }
   });
 }
 
 // Criterion: the very lists of before, from x_list, although x has moved since.
 TEST(Neighbours, AreRebuiltFromTheListPositions) {
   for_crowds([]<int N>(Crowd<N> crowd) {
-    const auto before = lists_of(crowd);
-    Random random(9);
-    for (auto& at : crowd.store.template get<field::x>()) at += random.vector<N>(0.01 * crowd.support);
-    Neighbours<N> after(crowd.domain, {.search = "cell_grid", .skin = 0.15, .store_lists = true});
-    after.rebuild_from_list_positions(crowd.store, before.support());
-    EXPECT_EQ(after.support(), before.support());
-    std::vector<std::uint32_t> scratch;
-    for (const auto& [target, source] : group_pairs)
-      for (std::size_t t = 0; t < crowd.store.range(target).size(); ++t)
-        ASSERT_TRUE(std::ranges::equal(before.of(target, t, source, crowd.store, scratch),
-                                       after.of(target, t, source, crowd.store, scratch)));
+    for (const auto& options : all_ways<N>()) {
+      const auto before = lists_of(crowd, options);
+      Random random(9);
+      for (auto& at : crowd.store.template get<field::x>()) at += random.vector<N>(0.01 * crowd.support);
+      auto same = options;
+      same.skin = 0.15;
+      Neighbours<N> after(crowd.domain, same);
+      after.rebuild_from_list_positions(crowd.store, before.support());
+      EXPECT_EQ(after.support(), before.support());
+      ASSERT_EQ(all_lists(before, crowd.store), all_lists(after, crowd.store));
+    }
   });
+}
+
+// Criterion: a store in another order, as an older version wrote it, is read all the same.
+TEST(Neighbours, AreRebuiltInAnyOrder) {
+  for_crowds([]<int N>(Crowd<N> crowd) {
+    Random random(17);
+    std::ranges::copy(crowd.store.template get<field::x>(), crowd.store.template get<field::x_list>().begin());
+    for (auto& at : crowd.store.template get<field::x_list>()) at = crowd.domain.wrapped(at);
+    for (const Group group : all_groups) crowd.store.permute(group, random.shuffled(crowd.store.range(group).size()));
+    Neighbours<N> reference(crowd.domain, {.search = "all_pairs", .lists = Lists::plain});
+    reference.rebuild_from_list_positions(crowd.store, crowd.support);
+    for (const Lists lists : {Lists::stored, Lists::free}) {
+      Neighbours<N> neighbours(crowd.domain, {.lists = lists});
+      neighbours.rebuild_from_list_positions(crowd.store, crowd.support);
+      ASSERT_EQ(all_lists(neighbours, crowd.store), all_lists(reference, crowd.store));
+    }
+  });
+}
+
+// Criterion: one scratch serves groups, builds and neighbours in any order.
+TEST(Neighbours, AScratchIsNotAnsweredFromWhatIsOld) {
+  auto crowd = make_crowd<3>({.side = side<3>});
+  auto other = make_crowd<3>({.side = side<3>}, 2);
+  const typename Neighbours<3>::Options options{.lists = Lists::free};
+  auto neighbours = lists_of(crowd, options);
+  const auto others = lists_of(other, options);
+  Neighbours<3>::Scratch scratch;
+  Random random(21);
+  for (int k = 0; k < 300; ++k) {
+    if (k == 150) {
+      for (auto& at : crowd.store.get<field::x>()) at += random.vector<3>(0.3 * crowd.support);
+      neighbours.build(crowd.store, crowd.support);
+    }
+    const auto& [target, source] = group_pairs[random.bits() % 3];
+    const bool which = random.bits() & 1;
+    const auto& asked = which ? neighbours : others;
+    const auto& store = which ? crowd.store : other.store;
+    const std::size_t t = random.bits() % 8;
+    std::vector<std::uint32_t> expected;
+    asked.of(target, t, source, store, expected);
+    ASSERT_TRUE(std::ranges::equal(asked.of(target, t, source, store, scratch), expected));
+  }
+}
+
+// Criterion: automatic lists are stored where they fit into the memory allowed, and else not; the reason is told.
+TEST(Neighbours, AutomaticListsKeepToTheMemoryAllowed) {
+  auto crowd = make_crowd<2>({.side = side<2>});
+  const auto roomy = lists_of(crowd);
+  EXPECT_TRUE(roomy.stored());
+  EXPECT_GT(roomy.pair_count(Group::fluid, Group::fluid), 0U);
+  EXPECT_EQ(roomy.describe().find("stored lists, "), 0U) << roomy.describe();
+  const auto tight = lists_of(crowd, {.list_memory = 1000});
+  EXPECT_FALSE(tight.stored());
+  EXPECT_LT(tight.bytes(), roomy.bytes());
+  EXPECT_EQ(tight.describe().find("list-free: lists would need "), 0U) << tight.describe();
+  EXPECT_EQ(all_lists(tight, crowd.store), all_lists(roomy, crowd.store));
+  EXPECT_EQ(lists_of(crowd, {.lists = Lists::free}).describe(), "list-free: asked for");
+  EXPECT_EQ(lists_of(crowd, {.lists = Lists::plain}).describe(), "plain: each particle asks cell_grid");
 }
 
 TEST(Neighbours, AnEmptyGroupHasNoNeighbours) {
   auto crowd = make_crowd<2>({.side = 6, .wall_layers = 0});
-  const auto neighbours = lists_of(crowd);
-  std::vector<std::uint32_t> scratch;
-  EXPECT_TRUE(neighbours.of(Group::fluid, 0, Group::wall, crowd.store, scratch).empty());
-  EXPECT_FALSE(neighbours.of(Group::fluid, 0, Group::fluid, crowd.store, scratch).empty());
-  Crowd<2> nobody{{}, Domain<2>::unbounded(), 1};
-  nobody.store.allocate(crowd.store.fields());
-  EXPECT_EQ(lists_of(nobody).pair_count(Group::fluid, Group::fluid), 0U);
+  for (const Lists lists : {Lists::stored, Lists::free, Lists::plain}) {
+    const auto neighbours = lists_of(crowd, {.lists = lists});
+    Neighbours<2>::Scratch scratch;
+    EXPECT_TRUE(neighbours.of(Group::fluid, 0, Group::wall, crowd.store, scratch).empty());
+    EXPECT_FALSE(neighbours.of(Group::fluid, 0, Group::fluid, crowd.store, scratch).empty());
+    Crowd<2> nobody{{}, Domain<2>::unbounded(), 1};
+    nobody.store.allocate(crowd.store.fields());
+    EXPECT_EQ(lists_of(nobody, {.lists = lists}).pair_count(Group::fluid, Group::fluid), 0U);
+  }
 }
 
-}  // namespace
 }  // namespace undine

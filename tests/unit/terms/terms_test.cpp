@@ -186,7 +186,7 @@ TEST(Terms, TurnWithTheirVectors) {
     auto expected = by_id(a, term);
     std::size_t f = 0;
     Term::adds::for_each([&]<class F>(F) {
-      using Value = F::template value<2, double>;
+      using Value = typename F::template value<2, double>;
       auto* values = reinterpret_cast<Value*>(expected[f++].data());
       for (std::size_t i = 0; i < a.size(); ++i) values[i] = turned(values[i]);
     });
@@ -226,6 +226,7 @@ struct TwoParticles {
     ab.r = norm(dx);
     ab.support = support;
     ab.h = support / 2;
+    ab.inv_r_sq = 1 / (ab.r_sq + 0.01 * sq(ab.h));
     ab.w = kernel.w<2>(ab.r / support) / sq(support);
     ab.grad_w = ab.dx * (kernel.slope_over_R<2>(ab.r / support) / sq(sq(support)));
     ab.inside = ab.r < support;

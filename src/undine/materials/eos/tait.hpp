@@ -4,6 +4,7 @@
 
 #include "undine/core/catalogue.hpp"
 #include "undine/core/parameter.hpp"
+#include "undine/materials/power.hpp"
 
 namespace undine::materials {
 
@@ -20,15 +21,15 @@ struct Tait {
                       P{"gamma", &Tait::gamma, "1", "exponent", 1}};
   }
 
-  double pressure(double rho) const { return p_ref * (std::pow(rho / rho_0, gamma) - 1); }
+  double pressure(double rho) const { return p_ref * (power(rho / rho_0, gamma) - 1); }
   /// dp/drho = c^2.
-  double sound_speed(double rho) const { return std::sqrt(gamma * p_ref / rho_0 * std::pow(rho / rho_0, gamma - 1)); }
+  double sound_speed(double rho) const { return std::sqrt(gamma * p_ref / rho_0 * power(rho / rho_0, gamma - 1)); }
   /// Inverse of `pressure`; not a number below the smallest pressure -p_ref.
   double density(double p) const { return rho_0 * std::pow(p / p_ref + 1, 1 / gamma); }
   /// Specific elastic energy, the integral of p/rho^2 from rho_0.
   double energy(double rho) const {
     if (gamma == 1) return p_ref / rho_0 * (std::log(rho / rho_0) + rho_0 / rho - 1);
-    return p_ref / rho_0 * ((std::pow(rho / rho_0, gamma - 1) - 1) / (gamma - 1) + rho_0 / rho - 1);
+    return p_ref / rho_0 * ((power(rho / rho_0, gamma - 1) - 1) / (gamma - 1) + rho_0 / rho - 1);
   }
 };
 

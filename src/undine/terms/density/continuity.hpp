@@ -13,7 +13,7 @@ struct Continuity {
   using reads = Fields<m, v>;
   using adds = Fields<drho>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(b.m * dot(a.v - b.v, ab.grad_w));
   }
 };
@@ -25,7 +25,7 @@ struct ContinuityVolume {
   using reads = Fields<m, rho, v>;
   using adds = Fields<drho>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(a.rho * (b.m / b.rho) * dot(a.v - b.v, ab.grad_w));
   }
 };

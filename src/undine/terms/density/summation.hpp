@@ -12,7 +12,7 @@ struct Summation {
   using reads = Fields<m>;
   using adds = Fields<rho_sum>;
 
-  auto operator()(const auto&, const auto& b, const auto& ab) const { return adds::row(b.m * ab.w); }
+  constexpr auto operator()(const auto&, const auto& b, const auto& ab) const { return adds::row(b.m * ab.w); }
 };
 
 struct ShepardSum {
@@ -21,7 +21,7 @@ struct ShepardSum {
   using reads = Fields<m, rho>;
   using adds = Fields<w_sum>;
 
-  auto operator()(const auto&, const auto& b, const auto& ab) const { return adds::row(b.m / b.rho * ab.w); }
+  constexpr auto operator()(const auto&, const auto& b, const auto& ab) const { return adds::row(b.m / b.rho * ab.w); }
 };
 
 }  // namespace undine::terms

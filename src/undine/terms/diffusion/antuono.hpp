@@ -22,9 +22,9 @@ struct DiffusionAntuono {
         Parameter<DiffusionAntuono>{"delta", &DiffusionAntuono::delta, "1", "strength of the diffusion", 0}};
   }
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     const auto linear = -0.5 * dot(a.grad_rho_l + b.grad_rho_l, ab.dx);
-    const auto f = -dot(ab.dx, ab.grad_w) / (ab.r_sq + 0.01 * sq(ab.h));
+    const auto f = -dot(ab.dx, ab.grad_w) * ab.inv_r_sq;
     return adds::row(delta * ab.h * (a.c + b.c) * (b.m / b.rho) * (b.rho - a.rho - linear) * f);
   }
 };
@@ -38,7 +38,7 @@ struct DensityGradient {
   using reads = Fields<m, rho>;
   using adds = Fields<grad_rho, moment>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     const auto volume = b.m / b.rho;
     return adds::row(volume * (b.rho - a.rho) * ab.grad_w, outer(ab.grad_w, -volume * ab.dx));
   }

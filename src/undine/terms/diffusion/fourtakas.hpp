@@ -23,11 +23,11 @@ struct DiffusionFourtakas {
         Parameter<DiffusionFourtakas>{"delta", &DiffusionFourtakas::delta, "1", "strength of the diffusion", 0}};
   }
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     auto g_dx = gravity[0] * ab.dx[0];
     for (int k = 1; k < ab.dim; ++k) g_dx = g_dx + gravity[k] * ab.dx[k];
     const auto hydrostatic = -0.5 * (a.rho + b.rho) * g_dx / (a.c * b.c);
-    const auto f = -dot(ab.dx, ab.grad_w) / (ab.r_sq + 0.01 * sq(ab.h));
+    const auto f = -dot(ab.dx, ab.grad_w) * ab.inv_r_sq;
     return adds::row(delta * ab.h * (a.c + b.c) * (b.m / b.rho) * (b.rho - a.rho - hydrostatic) * f);
   }
 };

@@ -22,8 +22,8 @@ struct DiffusionMolteni {
         Parameter<DiffusionMolteni>{"delta", &DiffusionMolteni::delta, "1", "strength of the diffusion", 0}};
   }
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    const auto f = -dot(ab.dx, ab.grad_w) / (ab.r_sq + 0.01 * sq(ab.h));
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
+    const auto f = -dot(ab.dx, ab.grad_w) * ab.inv_r_sq;
     return adds::row(delta * ab.h * (a.c + b.c) * (b.m / b.rho) * (b.rho - a.rho) * f);
   }
 };

@@ -13,7 +13,7 @@ struct PressureMueller {
   using reads = Fields<m, rho, p>;
   using adds = Fields<acc>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(-0.5 * b.m * (a.p + b.p) / (a.rho * b.rho) * ab.grad_w);
   }
 };

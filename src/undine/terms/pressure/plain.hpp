@@ -11,7 +11,7 @@ struct PressurePlain {
   using reads = Fields<m, rho, p>;
   using adds = Fields<acc>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(-b.m * b.p / (a.rho * b.rho) * ab.grad_w);
   }
 };
@@ -23,7 +23,7 @@ struct PressureDifference {
   using reads = Fields<m, rho, p>;
   using adds = Fields<acc>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(-b.m * (b.p - a.p) / (a.rho * b.rho) * ab.grad_w);
   }
 };

@@ -11,7 +11,7 @@ struct PressureSum {
   using reads = Fields<m, rho, p>;
   using adds = Fields<acc>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(-b.m * (a.p + b.p) / (a.rho * b.rho) * ab.grad_w);
   }
 };

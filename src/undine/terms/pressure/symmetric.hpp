@@ -13,7 +13,7 @@ struct PressureSymmetric {
   using reads = Fields<m, rho, p>;
   using adds = Fields<acc>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(-b.m * (a.p / sq(a.rho) + b.p / sq(b.rho)) * ab.grad_w);
   }
 };

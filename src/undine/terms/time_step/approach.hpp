@@ -1,7 +1,7 @@
 #pragma once
 #include "undine/core/catalogue.hpp"
 #include "undine/core/fields.hpp"
-#include "undine/core/pack.hpp"
+#include "undine/core/value.hpp"
 
 namespace undine::terms {
 using namespace field;
@@ -12,8 +12,8 @@ struct ApproachSpeed {
   using reads = Fields<v>;
   using adds = Fields<mu_cfl>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    return adds::row(abs(dot(a.v - b.v, ab.dx)) * ab.h / (ab.r_sq + 0.01 * sq(ab.h)));
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
+    return adds::row(abs(dot(a.v - b.v, ab.dx)) * ab.h * ab.inv_r_sq);
   }
 };
 

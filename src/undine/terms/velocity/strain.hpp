@@ -11,7 +11,7 @@ struct VelocityGradient {
   using reads = Fields<m, rho, v>;
   using adds = Fields<strain>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(outer(ab.grad_w, (b.m / b.rho) * (b.v - a.v)));
   }
 };

@@ -20,7 +20,7 @@ struct Xsph {
     return std::array{Parameter<Xsph>{"epsilon", &Xsph::epsilon, "1", "share of the mean that is taken over", 0, 1}};
   }
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(epsilon * b.m / (0.5 * (a.rho + b.rho)) * ab.w * (b.v - a.v));
   }
 };

@@ -12,8 +12,8 @@ struct ViscosityLaminar {
   using reads = Fields<m, rho, mu, v>;
   using adds = Fields<acc>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    const auto f = 2.0 * (a.mu + b.mu) * dot(ab.dx, ab.grad_w) / ((a.rho + b.rho) * (ab.r_sq + 0.01 * sq(ab.h)));
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
+    const auto f = 2.0 * (a.mu + b.mu) * dot(ab.dx, ab.grad_w) * ab.inv_r_sq / (a.rho + b.rho);
     return adds::row(b.m / a.rho * f * (a.v - b.v));
   }
 };
@@ -25,8 +25,8 @@ struct ViscosityMorris {
   using reads = Fields<m, rho, mu, v>;
   using adds = Fields<acc>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    const auto f = (a.mu + b.mu) * dot(ab.dx, ab.grad_w) / (a.rho * b.rho * (ab.r_sq + 0.01 * sq(ab.h)));
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
+    const auto f = (a.mu + b.mu) * dot(ab.dx, ab.grad_w) * ab.inv_r_sq / (a.rho * b.rho);
     return adds::row(b.m * f * (a.v - b.v));
   }
 };

@@ -3,8 +3,8 @@
 
 #include "undine/core/catalogue.hpp"
 #include "undine/core/fields.hpp"
-#include "undine/core/pack.hpp"
 #include "undine/core/parameter.hpp"
+#include "undine/core/value.hpp"
 
 namespace undine::terms {
 using namespace field;
@@ -25,8 +25,8 @@ struct ViscosityMonaghan {
                       P{"beta", &ViscosityMonaghan::beta, "1", "strength of the quadratic (shock) part", 0}};
   }
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    const auto mu_ab = ab.h * negative_part(dot(a.v - b.v, ab.dx)) / (ab.r_sq + 0.01 * sq(ab.h));
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
+    const auto mu_ab = ab.h * negative_part(dot(a.v - b.v, ab.dx)) * ab.inv_r_sq;
     const auto pi_ab = (-alpha * 0.5 * (a.c + b.c) * mu_ab + beta * sq(mu_ab)) / (0.5 * (a.rho + b.rho));
     return adds::row(-b.m * pi_ab * ab.grad_w);
   }

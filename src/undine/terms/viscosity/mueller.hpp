@@ -12,7 +12,7 @@ struct ViscosityMueller {
   using reads = Fields<m, rho, mu, v>;
   using adds = Fields<acc>;
 
-  auto operator()(const auto& a, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return adds::row(b.m * 0.5 * (a.mu + b.mu) / (a.rho * b.rho) * ab.laplacian_w() * (b.v - a.v));
   }
 };

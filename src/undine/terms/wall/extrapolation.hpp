@@ -15,7 +15,7 @@ struct WallExtrapolation {
 
   Vec<3> gravity;  ///< less the wall's own acceleration, m/s^2; set by the scheme
 
-  auto operator()(const auto&, const auto& b, const auto& ab) const {
+  constexpr auto operator()(const auto&, const auto& b, const auto& ab) const {
     auto g_dx = gravity[0] * ab.dx[0];
     for (int k = 1; k < ab.dim; ++k) g_dx = g_dx + gravity[k] * ab.dx[k];
     const auto weight = b.m / b.rho * ab.w;
