@@ -52,8 +52,14 @@ constexpr void add_pair(const Pass& pass, const Vec<dimensions, V>& dx, const Ro
     w = Kernel::template w<dimensions>(R) * inverse_cubed;
     grad = Kernel::template slope_over_R<dimensions>(R) * (inverse_cubed * inverse * inverse);
   });
-  const PairBase<dimensions, V> base{
-      .dx = dx, .r = r, .r_sq = r_sq, .support = H, .h = h, .inv_r_sq = 1.0 / (r_sq + 0.01 * sq(h)), .inside = inside};
+  const PairBase<dimensions, V> base{.dx = dx,
+                                     .r = r,
+                                     .r_sq = r_sq,
+                                     .support = H,
+                                     .h = h,
+                                     .inv_r_sq = 1.0 / (r_sq + 0.01 * sq(h)),
+                                     .inv_rho = 2.0 / (a.rho + b.rho),
+                                     .inside = inside};
   const Pair<dimensions, V> ab{base, w, dx * grad, &pass.kernel};
   const auto one = [&]<class Term>(const Term& term) {
     const auto row = term(a, b, ab);

@@ -12,7 +12,6 @@
 
 #include "undine/app/bench_flops.hpp"
 #include "undine/app/bench_measure.hpp"
-#include "undine/core/pack.hpp"
 #include "undine/io/run_record.hpp"
 
 namespace undine {
@@ -29,7 +28,8 @@ std::string processor() {
 }
 
 std::string hardware() {
-  return fmt::format("{}, {} cores, vectors of {} bits", processor(), omp_get_num_procs(), 32 * lanes_of<Pack<float>>);
+  return fmt::format("{}, {} cores, {} loops", processor(), omp_get_num_procs(),
+                     instruction_set_names[static_cast<std::size_t>(best_instructions())]);
 }
 
 BenchOptions filled(BenchOptions options) {
@@ -86,15 +86,16 @@ class Sheet {
     const BenchBytes bytes = subject_.bytes();
     fmt::print(
         "\n{}, {}: {:.0f} particles of fluid, {:.0f} of walls; H = {:.2f} dp, neighbours {:.1f} mean, {:.0f} bulk\n"
-        "bytes per particle: {:.0f} fields, {:.0f} records, {:.0f} lists; {:.0f} flops per pair; a snapshot takes "
+        "bytes per particle: {:.0f} without lists ({:.0f} fields, {:.0f} work space, {:.0f} cells), {:.0f} lists; "
+        "{:.0f} flops per pair; a snapshot takes "
         "{:.2f} s\n"
         "{:<13} {:>7} {:>9} {:>15} {:>8} {:>6} {:>7} | ns per particle and step:\n"
         "{:<13} {:>7} {:>9} {:>15} {:>8} {:>6} {:>7} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}\n",
         state_name(), precision_name(), subject_.fluid(), subject_.particles() - subject_.fluid(),
-        what_.support_over_spacing, pairs.mean, pairs.bulk, bytes.fields, bytes.records, bytes.lists,
-        flops_per_pair(Group::fluid), seconds_output_ * steps_per_snapshot, "", "", "M steps", "", "M pairs", "% of",
-        "builds", "row", "threads", "per s", "slowest-fastest", "per s", "peak", "a step", "all", "sort", "list",
-        "sweep", "update", "output");
+        what_.support_over_spacing, pairs.mean, pairs.bulk, bytes.list_free(), bytes.fields, bytes.work, bytes.cells,
+        bytes.lists, flops_per_pair(Group::fluid), seconds_output_ * steps_per_snapshot, "", "", "M steps", "",
+        "M pairs", "% of", "builds", "row", "threads", "per s", "slowest-fastest", "per s", "peak", "a step", "all",
+        "sort", "list", "sweep", "update", "output");
   }
 
   void add_rows(Json& rows) {
@@ -163,7 +164,12 @@ class Sheet {
               {"sweep", t.sweep},
               {"update", t.update()},
               {"output", output(work)}}},
-            {"bytes_per_particle", {{"fields", bytes.fields}, {"records", bytes.records}, {"lists", bytes.lists}}},
+            {"bytes_per_particle",
+             {{"fields", bytes.fields},
+              {"work", bytes.work},
+              {"cells", bytes.cells},
+              {"list_free", bytes.list_free()},
+              {"lists", bytes.lists}}},
             {"repeats", timing.repeats},
             {"hardware", hardware()},
             {"version", program_version()}};

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "undine/core/pack.hpp"
+#include "undine/app/bench_peak.hpp"
 #include "undine/engine/pair.hpp"
 #include "undine/terms/catalogue.hpp"
 
@@ -63,34 +63,6 @@ void count_term(const Term& term, const Row& a, const Row& b, const Pair<3, Coun
   });
 }
 
-/// Chains of fused multiply-adds that do not wait for each other; the result keeps the compiler from leaving them out.
-template <class V>
-V multiply_adds(long rounds) {
-  constexpr int chains = 12;  // latency 4, two a cycle, and some to spare; 14 registers of the 16 of AVX2
-  V sums[chains];
-  for (int k = 0; k < chains; ++k) sums[k] = V(0.1 * k);
-  const V factor(0.999), addend(1e-3);
-  for (long r = 0; r < rounds; ++r)
-    for (int k = 0; k < chains; ++k) sums[k] = sums[k] * factor + addend;
-  V total(0);
-  for (int k = 0; k < chains; ++k) total += sums[k];
-  return total;
-}
-
-template <class V>
-double fma_peak(int threads) {
-  constexpr long rounds = 2000000;
-  constexpr double flops = 2.0 * 12 * lanes_of<V> * rounds;
-  double best = 0, sink = 0;
-  for (int repeat = 0; repeat < 9; ++repeat) {
-    const double start = seconds_now();
-#pragma omp parallel num_threads(threads) reduction(+ : sink)
-    sink += static_cast<double>(lane_sum(multiply_adds<V>(rounds)));
-    best = std::max(best, flops * threads / (seconds_now() - start));
-  }
-  return std::isfinite(sink) ? best : 0;
-}
-
 }  // namespace
 
 double flops_per_pair(Group source) {
@@ -115,6 +87,7 @@ double flops_per_pair(Group source) {
                                    .support = H,
                                    .h = 0.5,
                                    .inv_r_sq = Counting(1) / (r_sq + 0.25),
+                                   .inv_rho = Counting(1) / (0.5 * (a.rho + b.rho)),
                                    .inside = r_sq < H};
   const Pair<3, Counting> ab{base, w, dx * grad, nullptr};
 
@@ -150,7 +123,7 @@ double measured_bandwidth(int threads) {
 }
 
 double measured_fma_peak(PairPrecision precision, int threads) {
-  return precision == PairPrecision::mixed ? fma_peak<Pack<float>>(threads) : fma_peak<Pack<double>>(threads);
+  return with_instructions(best_instructions(), [&]<class Tag>() { return fma_peak<Tag>(precision, threads); });
 }
 
 }  // namespace undine

@@ -42,9 +42,11 @@ struct BenchPairs {
   double bulk = 0;                       ///< the median of the same: in a large body, that of its inside
 };
 
-/// Bytes per particle.
+/// Bytes per particle: of the fields; of the work space, which holds the records of a sweep; of the cells and codes by
+/// which neighbours are found; of the stored lists.
 struct BenchBytes {
-  double fields = 0, records = 0, lists = 0;
+  double fields = 0, work = 0, cells = 0, lists = 0;
+  double list_free() const { return fields + work + cells; }
 };
 
 /// A state with its scheme, to be timed in several ways from the same start.
@@ -54,7 +56,7 @@ class BenchSubject {
 
   BenchTiming time(BenchWork work, int threads, const BenchPatience& patience);
   const BenchPairs& pairs() const { return pairs_; }
-  BenchBytes bytes() const;
+  const BenchBytes& bytes() const { return bytes_; }
   /// Seconds to write one snapshot of v, rho, p and m into a temporary folder, best of three; 0 when it cannot be
   /// written.
   double seconds_snapshot() const;
@@ -65,10 +67,12 @@ class BenchSubject {
 
  private:
   BenchSample one_repeat(BenchWork work);
+  BenchBytes measure_bytes();
 
   double dt_;
   WeaklyCompressible<3> flow_;
   BenchPairs pairs_;
+  BenchBytes bytes_;
 };
 
 /// Runs the fused force sweep of a flow alone, on the lists and fields at hand.

@@ -69,6 +69,7 @@ class Run {
         gauges_(document.root(),
                 GaugeContext<N>{setup_.spacing, output_.energies > 0 ? output_.energies : setup_.choice.end / 200,
                                 setup_.options.gravity, setup_.domain, setup_.bodies, setup_.body_of_id}) {
+    for (const int f : output_.fields) setup_.options.kept.set(static_cast<std::size_t>(f));
     document.finish();
     hash_ = case_hash(document);
   }
@@ -227,7 +228,7 @@ class Run {
       fmt::print("\n  sweeps      all one pair at a time in double (backend {})\n",
                  backend_names[static_cast<std::size_t>(backend.kind)]);
     }
-    fmt::print("  neighbours  {}\n", flow_->neighbours().describe());
+    fmt::print("  loops       {}\n  neighbours  {}\n", flow_->describe_sweeps(), flow_->neighbours().describe());
   }
 
   void write_due(double before, EnergySeries<N>& energies, SeriesFile& series, const Step& step) {

@@ -42,6 +42,9 @@ class OneOf<Catalogue<Terms...>> {
     return std::get<Term>(terms_);
   }
 
+  /// The first alternative: for loops that are compiled for it alone.
+  const auto& first() const { return std::get<0>(terms_); }
+
   /// Calls f(term) for the chosen alternative.
   template <class F>
   void with_chosen(F&& f) {

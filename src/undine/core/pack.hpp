@@ -36,7 +36,10 @@ class Pack {
   [[gnu::always_inline]] friend Pack operator+(const Pack& a, const Pack& b) { return a.native_ + b.native_; }
   [[gnu::always_inline]] friend Pack operator-(const Pack& a, const Pack& b) { return a.native_ - b.native_; }
   [[gnu::always_inline]] friend Pack operator*(const Pack& a, const Pack& b) { return a.native_ * b.native_; }
-  [[gnu::always_inline]] friend Pack operator/(const Pack& a, const Pack& b) { return a.native_ / b.native_; }
+  /// By the reciprocal, which the compiler shares between quotients of one divisor.
+  [[gnu::always_inline]] friend Pack operator/(const Pack& a, const Pack& b) {
+    return a.native_ * (Native(T(1)) / b.native_);
+  }
   [[gnu::always_inline]] friend Pack operator-(const Pack& a) { return -a.native_; }
   [[gnu::always_inline]] Pack& operator+=(const Pack& o) {
     native_ += o.native_;

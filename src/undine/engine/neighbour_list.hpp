@@ -8,6 +8,9 @@
 
 namespace undine {
 
+/// Numbers behind the end of every list that may be read too: any indices of particles.
+inline constexpr std::size_t list_padding = 16;
+
 /// For each target of a group, the indices (in the store) of the particles of a source group within the list radius,
 /// ascending.
 class NeighbourList {
@@ -80,7 +83,7 @@ class NeighbourList {
     std::size_t used = 0;
     for (std::size_t t = first, count = 0; t < last; t += count) {
       count = finder.batch(t, last);
-      const std::size_t needed = used + finder.room();
+      const std::size_t needed = used + finder.room() + list_padding;
       if (needed > static_cast<std::size_t>(room.end - room.at)) room = next_block(room.at, used, needed);
       std::uint32_t* ends = part.starts.data() + (t - first) + 1;
       finder.find(room.at + used, ends);
@@ -88,8 +91,10 @@ class NeighbourList {
       used = ends[count - 1];
     }
     part.indices = room.at;
+    if (room.at == nullptr) return;
+    std::fill_n(room.at + used, list_padding, 0U);  // until the next part begins there
     room.at += used;
-    if (room.at != nullptr) note_use(room);
+    note_use(room);
   }
 
   /// A block with room for `needed` numbers, which begins with the `used` ones at `from`.

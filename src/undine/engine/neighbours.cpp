@@ -197,7 +197,7 @@ void Neighbours<N>::sort_by_space(Store<N>& store) {
   for (const Group group : all_groups) {
     const IndexRange r = store.range(group);
     auto& pencils = pencils_[static_cast<int>(group)];
-    pencils.build(frame_, x.subspan(r.begin, r.size()), store.ids().subspan(r.begin, r.size()));
+    pencils.build(frame_, x.subspan(r.begin, r.size()), store.ids().subspan(r.begin, r.size()), store.workspace());
     if (!pencils.in_order()) store.permute(group, pencils.order());
   }
 }
@@ -220,7 +220,7 @@ void Neighbours<N>::rebuild_from_list_positions(Store<N>& store, double support)
   for (const Group group : all_groups) {
     const IndexRange r = store.range(group);
     auto& pencils = pencils_[static_cast<int>(group)];
-    pencils.build(frame_, x.subspan(r.begin, r.size()), store.ids().subspan(r.begin, r.size()));
+    pencils.build(frame_, x.subspan(r.begin, r.size()), store.ids().subspan(r.begin, r.size()), store.workspace());
     // Written by a version that sorted otherwise: the cells do not fit the order, but any search does.
     ask_search_ = ask_search_ || !pencils.in_order();
   }
@@ -308,7 +308,7 @@ std::span<const std::uint32_t> Neighbours<N>::find(Group target_group, std::size
       const std::size_t count = finder.batch(target, store.range(target_group).size());
       batch.first = target;
       batch.last = target + count;
-      if (batch.found.size() < finder.room()) batch.found.resize(finder.room());
+      if (batch.found.size() < finder.room() + list_padding) batch.found.resize(finder.room() + list_padding);
       batch.ends.resize(count + 1);
       batch.ends[0] = 0;
       finder.find(batch.found.data(), batch.ends.data() + 1);
@@ -357,15 +357,13 @@ std::string Neighbours<N>::describe() const {
   if (!stored_)
     return fmt::format("list-free: lists would need {:.1f} GB of {:.1f} GB allowed", list_bytes_needed_ / GB,
                        list_bytes_allowed() / GB);
-  std::size_t bytes = 0, targets = 0;
-  for (const auto& row : lists_)
-    for (const auto& list : row) bytes += list.bytes();
+  std::size_t targets = 0;
   for (const auto& pencils : pencils_) targets += pencils.order().size();
   const std::size_t fluid = pencils_[static_cast<int>(Group::fluid)].order().size();
   return fmt::format("stored lists, {:.0f} neighbours, {:.0f} bytes per particle",
                      static_cast<double>(pair_count(Group::fluid, Group::fluid)) /
                          static_cast<double>(std::max<std::size_t>(fluid, 1)),
-                     static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(targets, 1)));
+                     static_cast<double>(list_bytes()) / static_cast<double>(std::max<std::size_t>(targets, 1)));
 }
 
 template <int N>
@@ -374,6 +372,12 @@ std::size_t Neighbours<N>::bytes() const {
   for (const auto& pencils : pencils_) total += pencils.bytes();
   if (ask_search_)
     for (const auto& search : searches_) total += search->bytes();
+  return total + list_bytes();
+}
+
+template <int N>
+std::size_t Neighbours<N>::list_bytes() const {
+  std::size_t total = 0;
   for (const auto& row : lists_)
     for (const auto& list : row) total += list.bytes();
   return total;

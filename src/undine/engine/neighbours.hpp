@@ -72,6 +72,8 @@ class Neighbours {
   /// What the last build chose and why, for people.
   std::string describe() const;
   std::size_t bytes() const;
+  /// Of those, the bytes of the stored lists.
+  std::size_t list_bytes() const;
   /// Pairs on the stored lists; 0 if none are stored.
   std::size_t pair_count(Group target, Group source) const { return list(target, source).pairs(); }
   /// Wall-clock time of all builds: sorting, and listing.

@@ -19,6 +19,7 @@ struct PairBase {
   V support;                   ///< support radius H of the pair
   V h;                         ///< smoothing length h = H / kappa of the pair
   V inv_r_sq;                  ///< 1/(r^2 + 0.01 h^2), which is finite at r = 0; Monaghan (1992), eq. 4.2
+  V inv_rho;                   ///< 1/rho_ab, rho_ab = (rho_a + rho_b)/2; only where a term of the sweep reads rho
   decltype(V() < V()) inside;  ///< r < H; only maxima need it, sums vanish by themselves
 };
 

@@ -8,22 +8,15 @@
 #include <omp.h>
 
 #include "undine/backend/backend.hpp"
-#include "undine/core/aligned.hpp"
 #include "undine/core/error.hpp"
-#include "undine/engine/sweep.hpp"
+#include "undine/engine/records.hpp"
 
 namespace undine {
-
-/// Memory for the records of a sweep, kept from one run of it to the next.
-struct SweepRecords {
-  AlignedVector<float> single;
-  AlignedVector<double> twice;
-};
 
 /// The loops of a sweep, compiled for the instruction set `Tag`; engine/sweep_loop.hpp defines them.
 template <class Tag, int N, class... Uses>
 struct SweepEntry {
-  using Loop = void(const SweepContext<N>&, std::tuple<Uses...>&, SweepRecords&, Group target, Booking);
+  using Loop = void(const SweepContext<N>&, std::tuple<Uses...>&, const SweepTask&);
   static Loop mixed;      ///< packs of floats
   static Loop in_double;  ///< packs of doubles
   static Loop plain;      ///< one double after the other
@@ -51,7 +44,36 @@ class PairSweep {
     return std::apply([](const auto&... use) { return (reads_in_use(use) | ... | FieldSet{}); }, uses_);
   }
   FieldSet target_reads() const { return (target_reads_of<typename Uses::Term>() | ...) & reads(); }
-  static FieldSet adds() { return Union<typename Uses::Term::adds...>::set(); }
+  /// What the terms in use add.
+  FieldSet adds() const { return adds_in_use(uses_); }
+
+  /// Which loop runs: the narrowest that does what the sweep is set to.
+  SweepPath path(const SweepContext<N>& context, const Backend& backend) const {
+    if (context.support.per_particle) return SweepPath::supports;
+    return unusual(context, backend).empty() ? SweepPath::usual : SweepPath::any;
+  }
+  /// Why it is not the usual one, for people; empty where it is.
+  std::string unusual(const SweepContext<N>& context, const Backend& backend) const {
+    if (backend.kind != BackendKind::threads) return "one pair at a time";
+    if (backend.precision != PairPrecision::mixed) return "in double";
+    if (backend.instructions == InstructionSet::basic) return "narrow vectors";
+    if (context.support.per_particle) return "H of each pair";
+    for (const KernelChoice kernel : context.kernels)
+      if (kernel != KernelChoice{}) return "kernel " + std::string(kernel.info().name);
+    std::string found;
+    const auto note = [&]<class U>(const U& use) {
+      if (!use.active || !found.empty()) return;
+      bool usual = U::presence != Presence::rare;
+      if constexpr (requires { use.term.index(); }) {
+        usual = usual && use.term.index() == 0;
+        if (!usual) found = std::string(use.term.info().name);
+      } else if (!usual) {
+        found = std::string(U::Term::info.name);
+      }
+    };
+    std::apply([&](const auto&... use) { (note(use), ...); }, uses_);
+    return found;
+  }
 
   void run(const SweepContext<N>& context, const Backend& backend) {
     switch (backend.kind) {
@@ -65,18 +87,21 @@ class PairSweep {
         with_instructions(backend.instructions, [&]<class Tag>() {
           using Loops = SweepEntry<Tag, N, Uses...>;
           const auto loop = backend.precision == PairPrecision::mixed ? &Loops::mixed : &Loops::in_double;
-          loop(context, uses_, records_, target_, booking_);
+          loop(context, uses_, {target_, booking_, path(context, backend)});
         });
         break;
     }
   }
 
  private:
+  static SweepPath plain_path(const SweepContext<N>& context) {
+    return context.support.per_particle ? SweepPath::supports : SweepPath::any;
+  }
   void run_serial(const SweepContext<N>& context) {
     const int threads = omp_get_max_threads();
     omp_set_num_threads(1);
     with_instructions(InstructionSet::basic, [&]<class Tag>() {
-      SweepEntry<Tag, N, Uses...>::plain(context, uses_, records_, target_, booking_);
+      SweepEntry<Tag, N, Uses...>::plain(context, uses_, {target_, booking_, plain_path(context)});
     });
     omp_set_num_threads(threads);
   }
@@ -92,7 +117,7 @@ class PairSweep {
     });
     for (const Group group : all_groups)
       if (group == target_ || takes_from(group))
-        check_finite(context, (takes_from(group) ? reads() : target_reads()) | Fields<field::x, field::h>::set(),
+        check_finite(context, (takes_from(group) ? reads() : target_reads()) | Fields<field::x>::set(),
                      context.store.range(group), "reads a value that nothing wrote");
     run_serial(context);
     check_finite(context, adds(), targets, "gave a value that is not finite");
@@ -126,7 +151,6 @@ class PairSweep {
   Group target_;
   Booking booking_;
   std::tuple<Uses...> uses_;
-  SweepRecords records_;
 };
 
 }  // namespace undine

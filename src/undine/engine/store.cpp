@@ -5,26 +5,19 @@
 namespace undine {
 namespace {
 
-/// Rows of `width` numbers: row begin + k takes what was in row begin + order[k]. `spare` is work space, which may
-/// change places with the data.
+/// Rows of `width` numbers: row begin + k takes what was in row begin + order[k].
 template <int width, class T>
-void permute_rows(std::vector<T>& data, std::size_t begin, std::span<const std::uint32_t> order,
-                  std::vector<T>& spare) {
-  const std::size_t count = order.size() * width;
-  spare.resize(count);
+void permute_rows(std::vector<T>& data, std::size_t begin, std::span<const std::uint32_t> order, Workspace& workspace) {
+  const auto moved = workspace.take<T>(order.size() * width);
   T* const rows = data.data() + begin * width;
-  const bool all = data.size() == count;
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
     for (std::size_t k = 0; k < order.size(); ++k)
-      for (int c = 0; c < width; ++c) spare[k * width + c] = rows[std::size_t{order[k]} * width + c];
-    if (!all) {
+      for (int c = 0; c < width; ++c) moved[k * width + c] = rows[std::size_t{order[k]} * width + c];
 #pragma omp for schedule(static)
-      for (std::size_t k = 0; k < count; ++k) rows[k] = spare[k];
-    }
+    for (std::size_t k = 0; k < moved.size(); ++k) rows[k] = moved[k];
   }
-  if (all) data.swap(spare);
 }
 
 template <class T>
@@ -84,12 +77,19 @@ void Store<N>::permute(Group group, std::span<const std::uint32_t> order) {
   for (int f = 0; f < FieldId::count; ++f) {
     if (!fields_[f]) continue;
     const int width = all_fields[f].components(N);
-    if (width == 1) permute_rows<1>(data_[f], r.begin, order, spare_scalars_);
-    if (width == N && N > 1) permute_rows<N>(data_[f], r.begin, order, spare_vectors_);
-    if (width == N * N && N > 1) permute_rows<N * N>(data_[f], r.begin, order, spare_tensors_);
+    if (width == 1) permute_rows<1>(data_[f], r.begin, order, workspace_);
+    if (width == N && N > 1) permute_rows<N>(data_[f], r.begin, order, workspace_);
+    if (width == N * N && N > 1) permute_rows<N * N>(data_[f], r.begin, order, workspace_);
   }
-  permute_rows<1>(ids_, r.begin, order, spare_ids_);
-  permute_rows<1>(materials_, r.begin, order, spare_materials_);
+  permute_rows<1>(ids_, r.begin, order, workspace_);
+  permute_rows<1>(materials_, r.begin, order, workspace_);
+}
+
+template <int N>
+void Store<N>::keep(const FieldSet& fields) {
+  fields_ &= fields;
+  for (int f = 0; f < FieldId::count; ++f)
+    if (!fields_[f]) data_[f] = {};
 }
 
 template <int N>
@@ -101,10 +101,7 @@ template <int N>
 std::size_t Store<N>::bytes() const {
   std::size_t total = ids_.capacity() * sizeof(std::int64_t) + materials_.capacity() * sizeof(std::int32_t);
   for (const auto& data : data_) total += data.capacity() * sizeof(double);
-  for (const auto* spare : {&spare_scalars_, &spare_vectors_, &spare_tensors_})
-    total += spare->capacity() * sizeof(double);
-  total += spare_ids_.capacity() * sizeof(std::int64_t) + spare_materials_.capacity() * sizeof(std::int32_t);
-  return total;
+  return total + workspace_.bytes();
 }
 
 template class Store<1>;

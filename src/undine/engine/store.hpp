@@ -6,6 +6,7 @@
 
 #include "undine/core/domain.hpp"
 #include "undine/core/fields.hpp"
+#include "undine/core/workspace.hpp"
 
 namespace undine {
 
@@ -27,6 +28,8 @@ class Store {
  public:
   /// Makes room for the fields; new entries are zero.
   void allocate(const FieldSet& fields);
+  /// Gives up the memory of all other fields.
+  void keep(const FieldSet& fields);
   /// Appends n particles to a group (zero in every field, ids continuing) and returns the index of the first.
   std::size_t append(Group group, std::size_t n, int material);
   /// Removes the particles whose flag is set (flags.size() == size()).
@@ -59,6 +62,8 @@ class Store {
   std::span<const std::int64_t> ids() const { return ids_; }
   std::span<std::int32_t> materials() { return materials_; }
   std::span<const std::int32_t> materials() const { return materials_; }
+  /// What every job on the particles may use, one after the other.
+  Workspace& workspace() { return workspace_; }
   std::size_t bytes() const;
 
  private:
@@ -68,10 +73,7 @@ class Store {
   std::vector<std::int32_t> materials_;
   std::array<std::size_t, group_count> counts_{};
   std::int64_t next_id_ = 0;
-  // Work space of permute, kept because fresh memory is slow.
-  std::vector<double> spare_scalars_, spare_vectors_, spare_tensors_;
-  std::vector<std::int64_t> spare_ids_;
-  std::vector<std::int32_t> spare_materials_;
+  Workspace workspace_;
 };
 
 extern template class Store<1>;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -47,6 +48,13 @@ FieldSet reads_in_use(const U& use) {
   }
 }
 
+/// The fields that the uses in action add to.
+template <class... U>
+FieldSet adds_in_use(const std::tuple<U...>& uses) {
+  return std::apply(
+      [](const U&... use) { return ((use.active ? U::Term::adds::set() : FieldSet{}) | ... | FieldSet{}); }, uses);
+}
+
 /// The fields that a term reads of its target: all that it reads, unless it says otherwise.
 template <class Term>
 FieldSet target_reads_of() {
@@ -68,7 +76,23 @@ struct SweepContext {
   double rho_reference = 0;  ///< kg/m^3; pair arithmetic in float carries densities as deviations from it
 };
 
+/// How much a loop over pairs knows when it is compiled. What it does not know is looked up once for each packet of
+/// pairs.
+enum class SweepPath {
+  usual,    ///< every term is the first of its list, none is rare, kernels are the default, H is the same everywhere
+  any,      ///< any terms and kernels
+  supports  ///< any, and H of each pair
+};
+inline constexpr std::array<std::string_view, 3> sweep_path_names{"usual", "any", "supports"};
+
 /// Whether a sweep books the power of its terms (needs v, m, p, rho of the targets).
 enum class Booking { off, on };
+
+/// What the loops of a sweep are asked to do.
+struct SweepTask {
+  Group target;
+  Booking booking = Booking::off;
+  SweepPath path = SweepPath::any;
+};
 
 }  // namespace undine

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,8 @@ class WeaklyCompressible {
   double time() const { return time_; }
   const Plan& plan() const { return plan_; }
   long list_builds() const { return list_builds_; }
+  /// The sweeps of an evaluation by the loop that they run on, and why not on the usual one, for people.
+  std::string describe_sweeps() const;
   /// Seconds spent: neighbour lists, pair sweeps.
   double seconds_lists() const { return seconds_lists_; }
   double seconds_sweeps() const { return seconds_sweeps_; }
@@ -79,9 +82,16 @@ class WeaklyCompressible {
   template <class Sweep>
   void run(Sweep& sweep);
   SweepContext<N> context();
+  struct SweepNote {
+    std::string name;
+    std::function<SweepPath()> path;
+    std::function<std::string()> unusual;
+  };
   void refresh_lists();
   void check_particles() const;
   double largest_support() const;
+  /// What every sweep reads of its particles.
+  FieldSet place() const { return options_.rho_law ? Fields<field::x, field::h>::set() : Fields<field::x>::set(); }
   /// A summed density leaves nothing for diffusion to change.
   bool diffuses() const { return options_.diffusion && options_.density == DensityForm::evolved; }
   void recall(const std::vector<double>& numbers);
@@ -91,6 +101,7 @@ class WeaklyCompressible {
   Options options_;
   Neighbours<N> neighbours_;
   Plan plan_;
+  std::vector<SweepNote> sweeps_;
   double support_now_ = 0;
   double body_power_ = 0;  ///< of the imposed force at the last evaluation, W
   double time_ = 0, time_start_ = 0;

@@ -100,11 +100,19 @@ void WeaklyCompressible<N>::make_plan() {
                }});
   }
 
-  FieldSet given_fields = Fields<x, v, m, rho, h, rho_0, mu, rho_wall, x_list>::set();
+  FieldSet given_fields = Fields<x, v, m, rho, x_list>::set();
+  const auto give = [&](bool needed, const FieldSet& fields) {
+    if (needed) given_fields |= fields;
+  };
+  give(walls || options_.rho_law, Fields<rho_0>::set());
+  give(options_.wall_density == WallDensity::modified, Fields<rho_wall>::set());
+  give(options_.viscosity || options_.strain_dissipation, Fields<mu>::set());
+  give(options_.rho_law, Fields<h>::set());
   Resources given;
   for (const Group g : all_groups) given.add(g, given_fields);
-  FieldSet used = given_fields | Fields<p, c, acc, drho, drho_diff, v_xsph, mu_cfl>::set();
+  FieldSet used = given_fields | Fields<p, c, acc, drho, mu_cfl>::set();
   for (const auto& stage : plan_.stages()) used |= stage.reads.fields() | stage.writes.fields();
+  store_.keep(used | options_.kept);
   store_.allocate(used);
   // Terms that are not in use leave these at zero, and so do walls.
   given.add(Group::fluid, Fields<grad_rho_l>::set()).add(Group::wall, Fields<grad_rho_l, p, c>::set());
@@ -121,8 +129,8 @@ void WeaklyCompressible<N>::add_density_stages() {
   }
   // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
   const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
-  Resources reads(Group::fluid, Fields<x, h, m, rho>::set());
-  if (options_.wall_density != WallDensity::none) reads.add(Group::wall, Fields<x, h, m, rho>::set());
+  Resources reads(Group::fluid, Fields<m, rho>::set() | place());
+  if (options_.wall_density != WallDensity::none) reads.add(Group::wall, Fields<m, rho>::set() | place());
   plan_.add({"normalised density", reads, touched, [this] {
                run(summation_);
                run(shepard_);
@@ -168,11 +176,12 @@ void WeaklyCompressible<N>::add_strain_stage() {
 template <int N>
 template <class Sweep>
 void WeaklyCompressible<N>::add_sweep(Sweep& sweep, bool from_walls) {
-  const FieldSet place = Fields<x, h>::set();
-  Resources reads(Group::fluid, sweep.reads() | place);
-  if (from_walls) reads.add(Group::wall, sweep.reads() | place);
-  reads.add(sweep.target(), sweep.target_reads() | place);
-  plan_.add({sweep.name(), reads, Resources(sweep.target(), Sweep::adds()), [this, &sweep] { run(sweep); }});
+  Resources reads(Group::fluid, sweep.reads() | place());
+  if (from_walls) reads.add(Group::wall, sweep.reads() | place());
+  reads.add(sweep.target(), sweep.target_reads() | place());
+  plan_.add({sweep.name(), reads, Resources(sweep.target(), sweep.adds()), [this, &sweep] { run(sweep); }});
+  sweeps_.push_back({sweep.name(), [this, &sweep] { return sweep.path(context(), options_.backend); },
+                     [this, &sweep] { return sweep.unusual(context(), options_.backend); }});
 }
 
 template <int N>
@@ -180,6 +189,18 @@ template <class Update>
 void WeaklyCompressible<N>::add_update(std::string name, Group group, const Update& rule) {
   plan_.add({std::move(name), Resources(group, Update::reads::set()), Resources(group, Update::writes::set()),
              [this, group, rule] { update(store_, group, rule); }});
+}
+
+template <int N>
+std::string WeaklyCompressible<N>::describe_sweeps() const {
+  std::string text;
+  for (const SweepNote& sweep : sweeps_) {
+    const std::string why = sweep.unusual();
+    text += fmt::format("{}{}: {}{}", text.empty() ? "" : "; ", sweep.name,
+                        sweep_path_names[static_cast<std::size_t>(sweep.path())],
+                        why.empty() ? "" : fmt::format(" ({})", why));
+  }
+  return text;
 }
 
 template <int N>
@@ -256,7 +277,7 @@ void WeaklyCompressible<N>::drift(double dt) {
   const auto mass = store_.template get<m>();
   const auto correction = store_.template get<v_xsph>();
   const auto& g = options_.gravity;
-  const bool moves = options_.xsph_target == XsphTarget::position;
+  const bool moves = options_.xsph && options_.xsph_target == XsphTarget::position;
   struct Work {
     double xsph = 0, walls = 0;
     Work& operator+=(const Work& o) {
@@ -297,7 +318,9 @@ void WeaklyCompressible<N>::compress(double dt) {
   const auto rate = store_.template get<drho>();
   const auto diffused = store_.template get<drho_diff>();
   if (options_.density == DensityForm::evolved)
-    for_each_particle(store_, Group::fluid, [&](std::size_t i) { density[i] += dt * (rate[i] + diffused[i]); });
+    for_each_particle(store_, Group::fluid, [&, diffuses = diffuses()](std::size_t i) {
+      density[i] += dt * (diffuses ? rate[i] + diffused[i] : rate[i]);
+    });
   if (options_.wall_density == WallDensity::evolved)
     for_each_particle(store_, Group::wall, [&](std::size_t i) {
       density[i] += dt * rate[i];
@@ -392,7 +415,7 @@ Step WeaklyCompressible<N>::stable_step(const StepLimits& limits) const {
   const bool viscous = options_.viscosity.has_value();
   // All limits in one pass, which memory bounds.
   const auto fastest = largest_over(store_, Group::fluid, Vec<3>{}, [&](std::size_t i) {
-    const double rate = kappa / H[i];
+    const double rate = kappa / (options_.rho_law ? H[i] : options_.support.uniform);
     return Vec<3>{{(sound[i] + approach[i]) * rate, norm_sq(a[i]) * sq(rate),
                    viscous ? viscosity[i] / density[i] * sq(rate) : 0.0}};
   });

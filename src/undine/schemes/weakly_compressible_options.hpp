@@ -63,6 +63,7 @@ struct WeaklyCompressibleOptions {
   Vec<N> gravity{};
   BodyForce<N> body_force;  ///< empty: gravity alone
 
+  FieldSet kept;  ///< of the set-up, besides those that the scheme needs
   Backend backend;
   typename Neighbours<N>::Options neighbours;
 };

@@ -7,7 +7,7 @@ namespace undine {
 template <int N>
 void CellGrid<N>::build(std::span<const Vec<N>> points, double radius, const Domain<N>& domain) {
   domain_ = domain;
-  pencils_.build(CellFrame<N>(box_around(points), points.size(), radius, domain), points);
+  pencils_.build(CellFrame<N>(box_around(points), points.size(), radius, domain), points, {}, workspace_);
   sorted_points_.resize(points.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < points.size(); ++k) sorted_points_[k] = points[pencils_.order()[k]];
@@ -34,7 +34,7 @@ void CellGrid<N>::find(const Vec<N>& x, double radius, std::vector<std::uint32_t
 
 template <int N>
 std::size_t CellGrid<N>::bytes() const {
-  return pencils_.bytes() + sorted_points_.capacity() * sizeof(Vec<N>);
+  return pencils_.bytes() + workspace_.bytes() + sorted_points_.capacity() * sizeof(Vec<N>);
 }
 
 template class CellGrid<1>;

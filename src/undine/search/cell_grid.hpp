@@ -18,6 +18,7 @@ class CellGrid final : public NeighbourSearch<N> {
  private:
   Domain<N> domain_;
   Pencils<N> pencils_;
+  Workspace workspace_;
   std::vector<Vec<N>> sorted_points_;  ///< in the order of the pencils, so that a cell's points lie side by side
 };
 

@@ -8,8 +8,12 @@
 namespace undine {
 
 template <int N>
-void Pencils<N>::build(const CellFrame<N>& frame, std::span<const Vec<N>> points, std::span<const std::int64_t> ids) {
+void Pencils<N>::build(const CellFrame<N>& frame, std::span<const Vec<N>> points, std::span<const std::int64_t> ids,
+                       Workspace& workspace) {
   frame_ = frame;
+  const auto work = workspace.take<std::byte>(points.size() * (sizeof(Key) + sizeof(Place)));
+  keys_ = {reinterpret_cast<Key*>(work.data()), points.size()};
+  places_ = {reinterpret_cast<Place*>(work.data() + points.size() * sizeof(Key)), points.size()};
   sort_by_pencil(points);
   const std::size_t count = pencils_.size();
 #pragma omp parallel for schedule(dynamic, 64)
@@ -35,8 +39,6 @@ void Pencils<N>::sort_by_pencil(std::span<const Vec<N>> points) {
   const std::size_t n = points.size(), pencil_count = frame_.pencils();
   pencils_.resize(pencil_count);
   begins_.resize(pencil_count + 1);
-  keys_.resize(n);
-  places_.resize(n);
   // One table of counts for each chunk of points; no more chunks than keep all tables together about as large as the
   // points.
   const std::size_t chunks =
@@ -108,7 +110,7 @@ void Pencils<N>::sort_pencil(std::size_t p, std::span<const std::int64_t> ids) {
 
 template <int N>
 std::size_t Pencils<N>::bytes() const {
-  return pencils_.capacity() * sizeof(Pencil) + keys_.capacity() * sizeof(Key) + places_.capacity() * sizeof(Place) +
+  return pencils_.capacity() * sizeof(Pencil) +
          (begins_.capacity() + starts_.capacity() + order_.capacity() + counts_.capacity()) * sizeof(std::uint32_t);
 }
 

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "undine/core/workspace.hpp"
 #include "undine/search/cell_frame.hpp"
 
 namespace undine {
@@ -16,7 +17,8 @@ class Pencils {
   using Cell = typename CellFrame<N>::Cell;
 
   /// Without ids, points in one cell are ordered by index.
-  void build(const CellFrame<N>& frame, std::span<const Vec<N>> points, std::span<const std::int64_t> ids = {});
+  void build(const CellFrame<N>& frame, std::span<const Vec<N>> points, std::span<const std::int64_t> ids,
+             Workspace& workspace);
 
   const CellFrame<N>& frame() const { return frame_; }
   /// The index of the point at each place of the order.
@@ -94,8 +96,8 @@ class Pencils {
     std::uint32_t pencil;
     int along;
   };
-  std::vector<Key> keys_;  ///< work space, kept from one build to the next as the two below
-  std::vector<Place> places_;
+  std::span<Key> keys_;  ///< of the points, while they are sorted
+  std::span<Place> places_;
   std::vector<std::uint32_t> counts_;
 };
 

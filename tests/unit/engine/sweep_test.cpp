@@ -261,9 +261,13 @@ TEST(Sweep, SumsOnlyFromTheGroupsItIsGiven) {
     EXPECT_NEAR(fluid[k] + wall[k], both[k], 1e-12 * both[k]);
     EXPECT_EQ(none[k], 0);
   }
+  // What no term in use adds to is left alone.
   test::use_only<terms::Summation>(sweep, {});
+  EXPECT_EQ(sweep.adds(), terms::Summation::adds::set());
+  const Vec<2> mark{{1, 2}};
+  std::ranges::fill(bench.crowd.store.get<field::acc>(), mark);
   sweep.run(bench.context(), threads_double);
-  for (const auto& acc : bench.crowd.store.get<field::acc>().first(both.size())) EXPECT_EQ(acc, Vec<2>{});
+  for (const auto& acc : bench.crowd.store.get<field::acc>()) EXPECT_EQ(acc, mark);
 }
 
 // Criterion: the checked backend agrees with serial to the bit, and names the sweep, the field and the particle of a
@@ -272,7 +276,7 @@ TEST(Sweep, CheckedBackendNamesTheFieldThatNothingWrote) {
   Bench<2> bench(make_crowd<2>({.side = 10}), {.kernels = wendland}, "cell_grid", true);
   EveryTerm<2> sweep("pull", Group::fluid);
   test::use_only<terms::PressureSymmetric>(sweep, {});
-  const auto adds = EveryTerm<2>::adds();
+  const auto adds = sweep.adds();
   const auto expected = bench.results(sweep, adds, serial);
   EXPECT_EQ(bench.results(sweep, adds, checked), expected);
 

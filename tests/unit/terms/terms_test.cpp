@@ -227,6 +227,7 @@ struct TwoParticles {
     ab.support = support;
     ab.h = support / 2;
     ab.inv_r_sq = 1 / (ab.r_sq + 0.01 * sq(ab.h));
+    if constexpr (Term::reads::template has<rho>) ab.inv_rho = 2 / (a.rho + b.rho);
     ab.w = kernel.w<2>(ab.r / support) / sq(support);
     ab.grad_w = ab.dx * (kernel.slope_over_R<2>(ab.r / support) / sq(sq(support)));
     ab.inside = ab.r < support;

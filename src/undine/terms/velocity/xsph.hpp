@@ -21,7 +21,7 @@ struct Xsph {
   }
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    return adds::row(epsilon * b.m / (0.5 * (a.rho + b.rho)) * ab.w * (b.v - a.v));
+    return adds::row(epsilon * b.m * ab.inv_rho * ab.w * (b.v - a.v));
   }
 };
 

@@ -13,7 +13,7 @@ struct ViscosityLaminar {
   using adds = Fields<acc>;
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    const auto f = 2.0 * (a.mu + b.mu) * dot(ab.dx, ab.grad_w) * ab.inv_r_sq / (a.rho + b.rho);
+    const auto f = (a.mu + b.mu) * dot(ab.dx, ab.grad_w) * ab.inv_r_sq * ab.inv_rho;
     return adds::row(b.m / a.rho * f * (a.v - b.v));
   }
 };

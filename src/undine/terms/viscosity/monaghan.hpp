@@ -27,7 +27,7 @@ struct ViscosityMonaghan {
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     const auto mu_ab = ab.h * negative_part(dot(a.v - b.v, ab.dx)) * ab.inv_r_sq;
-    const auto pi_ab = (-alpha * 0.5 * (a.c + b.c) * mu_ab + beta * sq(mu_ab)) / (0.5 * (a.rho + b.rho));
+    const auto pi_ab = (-alpha * 0.5 * (a.c + b.c) * mu_ab + beta * sq(mu_ab)) * ab.inv_rho;
     return adds::row(-b.m * pi_ab * ab.grad_w);
   }
 };
