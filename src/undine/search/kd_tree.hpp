@@ -1,4 +1,6 @@
 #pragma once
+#include <string_view>
+
 #include "undine/search/joined.hpp"
 #include "undine/search/tree.hpp"
 

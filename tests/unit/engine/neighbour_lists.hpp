@@ -62,8 +62,8 @@ std::vector<std::int64_t> all_lists(const Neighbours<N>& neighbours, const Store
   return all;
 }
 
-/// Every way to the lists: search, stored or not, instruction set. Searches other than the grid are asked point by point
-/// with any lists and instructions.
+/// Every way to the lists: search, stored or not, instruction set. Searches other than the grid are asked point by
+/// point with any lists and instructions.
 template <int N>
 std::vector<typename Neighbours<N>::Options> all_ways() {
   std::vector<typename Neighbours<N>::Options> ways;

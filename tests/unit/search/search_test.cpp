@@ -85,8 +85,8 @@ std::vector<std::vector<Vec<N>>> point_sets(Random& random) {
     if (k % 5 == 0) x[k % N] = nowhere[k % 3];
     return x;
   });
-  filled(50, [&](int k) { return k == 17 ? along(1e6) : random.vector<N>(1); });          // one far outlier
-  filled(250, [&](int) {                                                                  // on cell faces
+  filled(50, [&](int k) { return k == 17 ? along(1e6) : random.vector<N>(1); });  // one far outlier
+  filled(250, [&](int) {                                                          // on cell faces
     Vec<N> x;
     for (int k = 0; k < N; ++k) x[k] = 0.25 * std::floor(random.between(-4, 5));
     return x;

@@ -183,7 +183,7 @@ TEST(Tree, TheMedianBalances) {
 TEST(Tree, AxesFollowTheirRules) {
   std::vector<Vec<2>> points;
   for (int k = 0; k < 20; ++k) {
-    points.push_back({{0.005 * k, 0.02 * (k % 20)}});
+    points.push_back({{0.005 * k, 0.02 * (7 * k % 20)}});
     points.push_back({{1, 0.02 * k}});
   }
   using Axes = std::pair<int, int>;
@@ -216,17 +216,22 @@ TEST(Tree, PlanesFollowTheirRules) {
   EXPECT_EQ((lows.operator()<KdTreeRule<Spread, Centre>>()), (Counts{26, 13}));
   EXPECT_EQ((lows.operator()<KdTreeRule<Spread, Median>>()), (Counts{13, 6}));
   EXPECT_EQ((lows.operator()<OctreeRule>()), (Counts{26, 13}));
-  // In the box from 0 to 50 the middle is at 25, amid the elements from 20 to 49 at 34.5.
-  points = {{{0}}, {{100}}};
-  for (int k = 0; k < 15; ++k) points.push_back({{50.0 + 1.5 * k}});
-  const auto high = [&]<class Rule>() {
+  // The high half of the box is from 40.5 to 81, its middle at 60.75; its elements are from 60 to 81, amid them
+  // is 70.5.
+  points = {{{0}}};
+  for (int k = 0; k < 15; ++k) points.push_back({{60 + 1.5 * k}});
+  const auto second = [&]<class Rule>() {
     const auto tree = tree_of<Rule>(points);
-    const auto second = children(tree, children(tree, 0)[1]);
-    return tree.nodes()[second[0]].end - tree.nodes()[second[0]].begin;
+    const auto low = tree.nodes()[children(tree, children(tree, 0)[1])[0]];
+    return low.end - low.begin;
   };
-  EXPECT_EQ(high.operator()<OctreeRule>(), 15U);  // between 50 and 75
-  EXPECT_EQ((high.operator()<KdTreeRule<Extent, Mid>>()), 15U);
-  EXPECT_EQ((high.operator()<KdTreeRule<Extent, Median>>()), 1U);  // (see the next test for ties)
+  EXPECT_EQ((second.operator()<KdTreeRule<Extent, Mid>>()), 1U);
+  EXPECT_EQ((second.operator()<KdTreeRule<Extent, Centre>>()), 7U);
+  EXPECT_EQ(second.operator()<OctreeRule>(), 1U);
+  // More than half have the least coordinate: they stay together.
+  points.assign(14, {{0}});
+  for (int k = 1; k < 7; ++k) points.push_back({{1.0 * k}});
+  EXPECT_EQ((lows.operator()<KdTreeRule<Rotate, Median>>()), (Counts{14, 6}));
 }
 
 }  // namespace undine
