@@ -70,6 +70,23 @@ def same_bits_resume(program, cases, folder):
         require(series[0] == series[1], f"{integrator}: the energy series are the same")
 
 
+def same_bits_searches(program, cases, folder):
+    """The checksum over all fields is the same for every search of `undine list searches`, in 2-D and in 3-D."""
+    names = [entry["name"] for entry in json.loads(undine(program, "list", "searches", "--json"))]
+    require(len(names) > 2 and "cell_grid" in names, f"{len(names)} searches")
+    for case, end in (("dam_break_2d", "30 ms"), ("still_water", "2 ms")):
+        sums = {}
+        for name in names:
+            out = os.path.join(folder, case + name)
+            undine(program, "run", os.path.join(cases, case + ".toml"), "--out", out, "--quiet", "--set", f"time.end={end}", "--set",
+                   f"scheme.search.name={name}")
+            record = json.load(open(os.path.join(out, "run.json"), encoding="utf-8"))
+            sums[name] = (record["steps"], undine(program, "checksum", newest_checkpoint(out)).strip())
+        require(sums["cell_grid"][0] > 0, f"{case}: {sums['cell_grid'][0]} steps")
+        for name in names:
+            require(sums[name] == sums["cell_grid"], f"{case}, {name}: {sums[name]}, as cell_grid")
+
+
 def still_water(program, cases, folder):
     """RMS pressure error over the depth at most 5 % of the bottom pressure, nothing outside, audit residual at most 1 %."""
     undine(program, "run", os.path.join(cases, "still_water_2d.toml"), "--out", folder, "--quiet", "--set", "scheme.wall.treatment=combined",

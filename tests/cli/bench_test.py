@@ -5,6 +5,7 @@
 """
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -80,6 +81,44 @@ def check_compare(folder, rows):
         check(done.returncode == 2 and message in done.stderr and "Traceback" not in done.stderr, f"says: {message}")
 
 
+def check_search(program, folder):
+    """`undine bench search`: every search of the list, the same pairs, exponents that belong to the figures."""
+    names = [entry["name"] for entry in json.loads(run([program, "list", "searches", "--json"], folder).stdout)]
+    done = run([program, "bench", "search", "--json", "--particles", "4000,500,2000", "--repeats", "3"], folder)
+    check(done.returncode == 0, "bench search --json runs")
+    rows = json.loads(done.stdout)
+    check({(row["name"], row["set"]) for row in rows} == {(name, place) for name in names for place in ("uniform", "clustered")},
+          "every search on both sets")
+    check(len(rows) == 6 * len(names), "three sizes each")
+    for key in {(row["set"], row["particles"]) for row in rows}:
+        found = {row["neighbours"] for row in rows if (row["set"], row["particles"]) == key}
+        check(len(found) == 1 and 20 < min(found) < 80, f"{key}: every search finds {found} neighbours")
+    for name, place in {(row["name"], row["set"]) for row in rows}:
+        mine = sorted((row for row in rows if (row["name"], row["set"]) == (name, place)), key=lambda row: row["particles"])
+        good = all(row["build_s"] >= 0 and row["query_s"] > 0 and row["bytes"] >= 0 and row["threads"] == 1 for row in mine)
+        for column, exponent in (("build_s", "exponent_build"), ("query_s", "exponent_query"), ("bytes", "exponent_bytes")):
+            fits = [row[exponent] for row in mine]
+            if all(row[column] > 0 for row in mine):
+                good = good and len(set(fits)) == 1 and abs(fits[0] - slope(mine, column)) < 1e-6
+            else:
+                good = good and fits == [None] * 3
+        check(good, f"{name}, {place}: figures and fits")
+    check(all(row["bytes"] > 20 * row["particles"] for row in rows if row["name"] != "all_pairs"), "memory of all but all_pairs")
+    done = run([program, "bench", "search", "--quick", "--search", "octree,cell_grid", "--set", "clustered"], folder)
+    check(done.returncode == 0 and "exponents of growth" in done.stdout and "uniform" not in done.stdout, "its table")
+    for words in (["--search", "oktree"], ["--set", "clumped"], ["--particles", "0"]):
+        done = run([program, "bench", "search"] + words, folder)
+        check(done.returncode == 2 and words[0] in done.stderr, f"{' '.join(words)} is refused")
+
+
+def slope(rows, column):
+    """Of log column over log particles, by least squares."""
+    x = [math.log(row["particles"]) for row in rows]
+    y = [math.log(row[column]) for row in rows]
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
+
+
 def main(program):
     with tempfile.TemporaryDirectory(prefix="undine_bench_") as folder:
         few = ["--particles", "1000", "--neighbours", "74", "--threads", "1", "--precision", "mixed", "--repeats", "1"]
@@ -93,6 +132,7 @@ def main(program):
         check(done.returncode == 0 and "step leapfrog" in done.stdout, "the table")
         done = run([program, "bench", "--state", "blok"], folder)
         check(done.returncode == 2 and "block" in done.stderr, "an unknown state is refused")
+        check_search(program, folder)
     print(f"{len(failures)} failed")
     return 1 if failures else 0
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include <omp.h>
 
 #include "undine/app/bench_flops.hpp"
+#include "undine/app/bench_hardware.hpp"
 #include "undine/app/bench_measure.hpp"
 #include "undine/io/run_record.hpp"
 
@@ -19,18 +19,6 @@ namespace {
 
 constexpr int splash_particles = 100000;  ///< the one size of the splash unless the user names some
 constexpr int steps_per_snapshot = 100;
-
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(std::min(line.size(), line.find(':') + 2));
-  return "unknown processor";
-}
-
-std::string hardware() {
-  return fmt::format("{}, {} cores, {} loops", processor(), omp_get_num_procs(),
-                     instruction_set_names[static_cast<std::size_t>(best_instructions())]);
-}
 
 BenchOptions filled(BenchOptions options) {
   const auto fill = [](auto& list, auto defaults) {
@@ -171,7 +159,7 @@ class Sheet {
               {"list_free", bytes.list_free()},
               {"lists", bytes.lists}}},
             {"repeats", timing.repeats},
-            {"hardware", hardware()},
+            {"hardware", bench_hardware()},
             {"version", program_version()}};
   }
 
@@ -217,7 +205,7 @@ int run_bench(const BenchOptions& given) {
   Json rows = Json::array();
   Peaks peaks;
   if (!options.json) {
-    fmt::print("{}\nmedians of {} repeats of ten steps from the same start\n", hardware(), options.repeats);
+    fmt::print("{}\nmedians of {} repeats of ten steps from the same start\n", bench_hardware(), options.repeats);
     for (const int threads : options.threads) {
       fmt::print("{} thread{}: memory {:.1f} GB/s", threads, threads == 1 ? "" : "s", 1e-9 * peaks.bandwidth(threads));
       for (const auto& word : options.precisions)

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "undine/app/bench.hpp"
+#include "undine/app/bench_search.hpp"
 #include "undine/app/lists.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/core/error.hpp"
@@ -60,6 +61,8 @@ int execute(int argc, char** argv) {
   BenchOptions bench_options;
   auto* bench = app.add_subcommand("bench", "time the hot loops on this machine");
   add_bench_options(*bench, bench_options);
+  BenchSearchOptions bench_search_options;
+  const auto* bench_search = add_bench_search(*bench, bench_search_options);
 
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> commands;
@@ -86,6 +89,7 @@ int execute(int argc, char** argv) {
   }
   if (show->parsed()) fmt::print("{}", show_text(name));
   if (sum->parsed()) fmt::print("{}\n", checksum_file(file));
+  if (bench_search->parsed()) return run_bench_search(bench_search_options);
   if (bench->parsed()) return run_bench(bench_options);
   return exit_ok;
 }

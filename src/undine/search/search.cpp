@@ -3,13 +3,34 @@
 #include "undine/core/error.hpp"
 #include "undine/search/all_pairs.hpp"
 #include "undine/search/cell_grid.hpp"
+#include "undine/search/kd_tree.hpp"
+#include "undine/search/octree.hpp"
+#include "undine/search/tree_searches.hpp"
 
 namespace undine {
 namespace {
 
+template <int N, class Axis, class Place>
+using KdTree = BallDescent<N, KdTreeRule<Axis, Place>>;
+
 /// The one list of searches.
+// clang-format off
 template <int N>
-using Searches = std::tuple<CellGrid<N>, AllPairs<N>>;
+using Searches = std::tuple<
+    CellGrid<N>,
+    BallDescent<N, OctreeRule>,
+    LeafLists<N, OctreeRule>,
+    KdTree<N, kd_axis::Rotate, kd_place::Mid>,
+    KdTree<N, kd_axis::Rotate, kd_place::Centre>,
+    KdTree<N, kd_axis::Rotate, kd_place::Median>,
+    KdTree<N, kd_axis::Extent, kd_place::Mid>,
+    KdTree<N, kd_axis::Extent, kd_place::Centre>,
+    KdTree<N, kd_axis::Extent, kd_place::Median>,
+    KdTree<N, kd_axis::Spread, kd_place::Mid>,
+    KdTree<N, kd_axis::Spread, kd_place::Centre>,
+    KdTree<N, kd_axis::Spread, kd_place::Median>,
+    AllPairs<N>>;
+// clang-format on
 
 template <int N, class F>
 void for_each_search(F&& f) {

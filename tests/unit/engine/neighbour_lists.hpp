@@ -62,14 +62,16 @@ std::vector<std::int64_t> all_lists(const Neighbours<N>& neighbours, const Store
   return all;
 }
 
-/// Every way to the lists: search, stored or not, instruction set.
+/// Every way to the lists: search, stored or not, instruction set. Searches other than the grid are asked point by
+/// point with any lists and instructions.
 template <int N>
 std::vector<typename Neighbours<N>::Options> all_ways() {
   std::vector<typename Neighbours<N>::Options> ways;
   for (const auto& info : search_infos())
     for (const Lists lists : {Lists::stored, Lists::free, Lists::plain})
       for (const auto set : {InstructionSet::basic, InstructionSet::avx2, InstructionSet::avx512})
-        if (can_run(set)) ways.push_back({.search = std::string(info.name), .lists = lists, .instructions = set});
+        if (can_run(set) && (info.name == "cell_grid" || (set == InstructionSet::basic && lists != Lists::free)))
+          ways.push_back({.search = std::string(info.name), .lists = lists, .instructions = set});
   return ways;
 }
 

@@ -28,15 +28,18 @@ void expect_same(const std::vector<Vec<N>>& points, const std::vector<Vec<N>>& q
                  const std::vector<double>& radii, const Domain<N>& domain) {
   const auto reference = make_search<N>("all_pairs");
   reference->build(points, built_for, domain);
-  std::vector<std::uint32_t> expected, found{12345};
+  std::vector<std::vector<std::uint32_t>> expected;
+  for (const double radius : radii)
+    for (const auto& x : queries) reference->find(x, radius, expected.emplace_back());
+  std::vector<std::uint32_t> found{12345};
   for (const Info& info : search_infos()) {
     const auto search = make_search<N>(std::string(info.name));
     search->build(points, built_for, domain);
+    auto next = expected.begin();
     for (const double radius : radii)
       for (const auto& x : queries) {
-        reference->find(x, radius, expected);
         search->find(x, radius, found);
-        ASSERT_EQ(found, expected) << info.name << " in " << N << "-D, radius " << radius;
+        ASSERT_EQ(found, *next++) << info.name << " in " << N << "-D, radius " << radius;
       }
   }
 }
@@ -69,8 +72,21 @@ std::vector<std::vector<Vec<N>>> point_sets(Random& random) {
   filled(100, [&](int k) { return along(k / 50.0 - 1); });                                // on a slanted line
   filled(60, [&](int k) { return Vec<N>{{k / 30.0 - 1}}; });                              // along an axis
   filled(40, [&](int) { return along(0.3); });                                            // on one point
-  filled(50, [&](int k) { return k == 17 ? along(1e6) : random.vector<N>(1); });          // one far outlier
-  filled(250, [&](int) {                                                                  // on cell faces
+  filled(90, [&](int k) { return along(k % 3 * 0.1); });                                  // on three points
+  filled(120, [&](int) {                                                                  // in a plane
+    auto x = random.vector<N>(1);
+    x[N - 1] = 0.1;
+    return x;
+  });
+  filled(80, [&](int k) { return along(std::ldexp(1.0, -12 * (k / 2))); });  // ever closer to the origin
+  filled(60, [&](int k) {                                                    // some of them nowhere
+    constexpr double nowhere[] = {NAN, INFINITY, -INFINITY};
+    auto x = random.vector<N>(1);
+    if (k % 5 == 0) x[k % N] = nowhere[k % 3];
+    return x;
+  });
+  filled(50, [&](int k) { return k == 17 ? along(1e6) : random.vector<N>(1); });  // one far outlier
+  filled(250, [&](int) {                                                          // on cell faces
     Vec<N> x;
     for (int k = 0; k < N; ++k) x[k] = 0.25 * std::floor(random.between(-4, 5));
     return x;
@@ -219,6 +235,39 @@ RC_GTEST_PROP(Search, AllPairsIsWhatItSays, ()) {
   search->build(points, radius, domain);
   search->find(x, radius, found);
   RC_ASSERT(found == expected);
+}
+
+namespace {
+
+/// A set of one of several kinds, asked for radii up to the one that it is built for.
+template <int N>
+void any_set(int kind, int n, int periodic, std::uint64_t seed) {
+  Random random(seed);
+  const double size = random.between(0.05, 1), lattice = random.between(0.02, 0.4);
+  std::vector<Vec<N>> points, centres;
+  for (int k = 0; k < 5; ++k) centres.push_back(random.vector<N>(1));
+  for (int k = 0; k < n; ++k) {
+    Vec<N> x = random.vector<N>(size);                                                // spread out
+    if (kind == 1) x = centres[k % 5] + random.vector<N>(std::ldexp(1.0, -(k % 9)));  // clustered
+    if (kind == 2) x = centres[0] + random.between(-1, 1) * centres[1];               // on a line
+    if (kind == 3) x = centres[k % 5];                                                // on a few points
+    for (int d = 0; d < N && kind == 4; ++d) x[d] = lattice * std::round(x[d] / lattice);
+    points.push_back(x);
+  }
+  const double radius = random.between(0.01, 0.9);
+  expect_same<N>(points, queries_for(points, random), radius, {radius, radius * random.between(0, 1)},
+                 box<N>(-1, 1, periodic));
+}
+
+}  // namespace
+
+RC_GTEST_PROP(Search, EverySearchFindsTheSameInAnySet, ()) {
+  const int kind = *rc::gen::inRange(0, 5), n = *rc::gen::inRange(0, 120), periodic = *rc::gen::inRange(0, 8);
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  any_set<1>(kind, n, periodic & 1, seed);
+  any_set<2>(kind, n, periodic & 3, seed);
+  any_set<3>(kind, n, periodic, seed);
+  RC_ASSERT(!::testing::Test::HasFailure());
 }
 
 TEST(Search, AnUnknownNameIsAnInputError) { EXPECT_THROW(make_search<2>("cell_gird"), InputError); }
