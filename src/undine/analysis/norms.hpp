@@ -24,15 +24,14 @@ class NormSums {
     first_ += volume * d;
     second_ += volume * d * d;
     reference_ += volume * reference * reference;
-    // A comparison with NaN is false: written this way round, a NaN is not lost.
-    if (!(d <= largest_)) largest_ = d;
+    largest_ = larger(largest_, d);
   }
   NormSums& operator+=(const NormSums& o) {
     volume_ += o.volume_;
     first_ += o.first_;
     second_ += o.second_;
     reference_ += o.reference_;
-    if (!(o.largest_ <= largest_)) largest_ = o.largest_;
+    largest_ = larger(largest_, o.largest_);
     return *this;
   }
   /// NaN where nothing was added.
@@ -46,6 +45,9 @@ class NormSums {
   }
 
  private:
+  /// The larger of two; NaN if one is.
+  static double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
+
   double volume_ = 0, first_ = 0, second_ = 0, reference_ = 0, largest_ = 0;
 };
 
