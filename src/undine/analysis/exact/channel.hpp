@@ -5,8 +5,8 @@
 
 namespace undine::exact {
 
-/// Most terms of a series. Term n carries exp(-n^2 pi^2 nu t/L^2), so at nu t/L^2 >= 3e-5 the last one is below 1e-17; a
-/// sum stops earlier, at the first factor below that.
+/// Most terms of a series. Term n carries exp(-n^2 pi^2 nu t/L^2), so at nu t/L^2 >= 3e-5 the last one is below 1e-17;
+/// a sum stops earlier, at the first factor below that.
 inline constexpr int series_terms = 400;
 inline constexpr double last_exponent = 40;  ///< exp(-40) = 4e-18
 

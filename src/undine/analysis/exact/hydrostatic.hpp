@@ -18,10 +18,9 @@ struct HydrostaticIncompressible {
   double surface = 1;
   static constexpr auto parameters() {
     using P = Parameter<HydrostaticIncompressible>;
-    return std::array{
-        P{"density", &HydrostaticIncompressible::rho_0, "kg/m^3", "rho_0", 1e-300},
-        P{"gravity", &HydrostaticIncompressible::g, "m/s^2", "g, towards smaller y", 0},
-        P{"surface", &HydrostaticIncompressible::surface, "m", "height of the free surface"}};
+    return std::array{P{"density", &HydrostaticIncompressible::rho_0, "kg/m^3", "rho_0", 1e-300},
+                      P{"gravity", &HydrostaticIncompressible::g, "m/s^2", "g, towards smaller y", 0},
+                      P{"surface", &HydrostaticIncompressible::surface, "m", "height of the free surface"}};
   }
 
   auto at(double) const {

@@ -10,9 +10,7 @@ double unit_surface(int d) { return d == 1 ? 2 : d == 2 ? 2 * pi : 4 * pi; }
 
 SedovProfile::SedovProfile(int dimensions, double gamma) : d_(dimensions), gamma_(gamma) { integrate(); }
 
-double SedovProfile::ln_z(double w) const {
-  return std::log(0.5 * gamma_ * (gamma_ - 1) * sq(V(w)) * (1 - V(w))) - w;
-}
+double SedovProfile::ln_z(double w) const { return std::log(0.5 * gamma_ * (gamma_ - 1) * sq(V(w)) * (1 - V(w))) - w; }
 
 auto SedovProfile::rates(double w) const -> Rates {
   const double u = V(w), z = std::exp(ln_z(w)), gamma = gamma_;
@@ -23,8 +21,8 @@ auto SedovProfile::rates(double w) const -> Rates {
   return {ln_lambda, gamma * L * std::exp(-w) * ln_lambda};
 }
 
-/// Runge-Kutta steps of fourth order in ln m from the shock, V = 2/(gamma+1), until V is 1/gamma but for rounding, where
-/// what follows are powers of lambda; with them the energy integral
+/// Runge-Kutta steps of fourth order in ln m from the shock, V = 2/(gamma+1), until V is 1/gamma but for rounding,
+/// where what follows are powers of lambda; with them the energy integral
 ///   E = S_d/d rho_0 R^d S^2 int m lambda^2 [V^2/2 + z/(gamma (gamma-1))] dln m.
 void SedovProfile::integrate() {
   constexpr double step = 0.01, deepest = -80, closest = -34;  // of ln m, and of w
@@ -44,8 +42,7 @@ void SedovProfile::integrate() {
   keep();
   while (ln_m > deepest && w > closest) {
     const double h = -step;
-    const Rates k1 = rates(w), k2 = rates(w + 0.5 * h * k1.w), k3 = rates(w + 0.5 * h * k2.w),
-                k4 = rates(w + h * k3.w);
+    const Rates k1 = rates(w), k2 = rates(w + 0.5 * h * k1.w), k3 = rates(w + 0.5 * h * k2.w), k4 = rates(w + h * k3.w);
     // Simpson's rule, the middle by the cubic through both ends.
     const Densities a = densities(ln_lambda, w, ln_m);
     const double l_end = ln_lambda + h / 6 * (k1.ln_lambda + 2 * k2.ln_lambda + 2 * k3.ln_lambda + k4.ln_lambda);
