@@ -4,24 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "undine/app/parameters.hpp"
 #include "undine/core/error.hpp"
 #include "undine/integrators/catalogue.hpp"
 #include "undine/schemes/presets.hpp"
 
 namespace undine {
 namespace {
-
-/// Reads the parameters of a term or an equation of state; the members' values are the defaults.
-template <class T>
-void read_parameters(const Table& table, T& owner) {
-  for_each_parameter<T>([&](const auto& parameter) {
-    const Dimension dimension = parameter.unit == "1" || parameter.unit == "SI"
-                                    ? unit::one
-                                    : parse_quantity("1 " + std::string(parameter.unit)).dimension;
-    owner.*parameter.member =
-        table.in_range(parameter.name, dimension, {parameter.low, parameter.high}, owner.*parameter.member);
-  });
-}
 
 /// The word chosen for `form`, out of the names of a list and further words.
 template <class List>

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "undine/app/gauges/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/engine/interpolate.hpp"
 
@@ -321,7 +322,8 @@ using GaugeTypes = Catalogue<  //
     Height<N>,                 //
     WallForce<N>,              //
     Front<N>,                  //
-    Extremes<N>>;
+    Extremes<N>,               //
+    ErrorGauge<N>>;
 
 template <int N, class... Types>
 std::unique_ptr<Gauge<N>> make_gauge(Catalogue<Types...> types, const Table& table, const GaugeContext<N>& context) {

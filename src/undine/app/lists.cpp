@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "undine/analysis/exact/catalogue.hpp"
 #include "undine/app/gauges.hpp"
 #include "undine/backend/backend.hpp"
 #include "undine/core/error.hpp"
@@ -92,6 +93,12 @@ Entry entry_of_type() {
     entry.properties = {{"kappa", fmt::format("{}", T::natural_kappa)},
                         {"smoothness", T::smoothness < 0 ? "jumps" : fmt::format("C{}", T::smoothness)},
                         {"positive", T::positive ? "yes" : "no"}};
+  if constexpr (requires { T::coordinates; }) {
+    std::string point = "t", values;
+    for (const auto& coordinate : T::coordinates) point += fmt::format(", {}", coordinate);
+    for (const auto& field : T::fields) values += fmt::format("{}{}", values.empty() ? "" : ", ", field.name);
+    entry.properties = {{"of", point}, {"fields", values}};
+  }
   if constexpr (requires { T::reflects; })
     entry.properties = {{"density", word(T::density, wall_density_words)}, {"reflects", T::reflects ? "yes" : "no"}};
   return entry;
@@ -139,6 +146,7 @@ std::vector<Axis> make_axes() {
       axis_of_words("backends", "Who runs the loops", backend_names, backend_titles),
       axis_of_words("precisions", "Number types of the pair arithmetic", precision_names, precision_titles),
       axis_of_infos("gauges", "Instruments that record a run", gauge_infos()),
+      axis_of<exact::ExactSolutions>("exact", "Exact solutions, for `undine exact` and the gauge `error`"),
       axis_of_infos("fields", "Quantities of a particle", all_fields),
   };
 }

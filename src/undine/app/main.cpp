@@ -6,6 +6,7 @@
 
 #include "undine/app/bench.hpp"
 #include "undine/app/bench_search.hpp"
+#include "undine/app/exact.hpp"
 #include "undine/app/lists.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/core/error.hpp"
@@ -58,6 +59,18 @@ int execute(int argc, char** argv) {
       app.add_subcommand("checksum", "hash over all fields of a snapshot or checkpoint, in order of particle id");
   sum->add_option("file", file)->required();
 
+  ExactOptions exact_options;
+  auto* exact = app.add_subcommand("exact", "a table of an exact solution, as CSV");
+  exact->add_option("name", exact_options.name, "riemann, sedov, ...; see `undine list exact`")->required();
+  exact->add_option("--set", exact_options.sets, "parameter=value, as often as needed")->allow_extra_args(false);
+  exact->add_option("--at", exact_options.at, "a point: 0.2, \"2 mm\" or 0.2,0.1; as often as needed")
+      ->allow_extra_args(false);
+  exact->add_option("--from", exact_options.from, "first point of a line of points");
+  exact->add_option("--to", exact_options.to, "last point of it");
+  exact->add_option("--points", exact_options.points, "how many points it has (101)")->check(CLI::PositiveNumber);
+  exact->add_option("--time", exact_options.time, "a number in s, or with a unit");
+  exact->add_option("--out", exact_options.out, "a CSV file; without it the table is printed");
+
   BenchOptions bench_options;
   auto* bench = app.add_subcommand("bench", "time the hot loops on this machine");
   add_bench_options(*bench, bench_options);
@@ -90,6 +103,7 @@ int execute(int argc, char** argv) {
   if (show->parsed()) fmt::print("{}", show_text(name));
   if (sum->parsed()) fmt::print("{}\n", checksum_file(file));
   if (bench_search->parsed()) return run_bench_search(bench_search_options);
+  if (exact->parsed()) return run_exact(exact_options);
   if (bench->parsed()) return run_bench(bench_options);
   return exit_ok;
 }
