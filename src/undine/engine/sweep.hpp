@@ -66,6 +66,7 @@ struct SweepContext {
   Support support;
   std::array<KernelChoice, kernel_roles> kernels;
   double rho_reference = 0;  ///< kg/m^3; pair arithmetic in float carries densities as deviations from it
+  std::array<bool, group_count> sources{true, true};  ///< groups that the sweep takes from, whatever its uses say
 };
 
 /// Whether a sweep books the power of its terms (needs v, m, p, rho of the targets).

@@ -1,0 +1,221 @@
+#!/usr/bin/python3
+"""Acceptance of every wall treatment of the program's list: walls.py CHECK UNDINE COUETTE_CSV. Each check prints its criteria and numbers."""
+import glob
+import os
+import sys
+import tempfile
+
+import h5py  # Debian's python3-h5py
+import numpy
+
+from acceptance import newest_checkpoint, read_csv, require, undine
+
+TANK = """# Water at rest in an open tank.
+dimensions = 2
+spacing = "0.02 m"
+gravity = [0, -9.81]
+[scheme.wall]
+treatment = "{wall}"
+guard = {guard}
+[time]
+end = "0.5 s"
+[[fluid]]
+surface = "0.2 m"
+shape = {{ type = "box", low = [0, 0], high = [0.4, 0.2] }}
+[[wall]]
+name = "tank"
+open = ["y+"]
+shape = {{ type = "box", low = [0, 0], high = [0.4, 0.3] }}
+[output]
+snapshots = "0.05 s"
+{gauge}"""
+
+PISTON = """# A piston presses a liquid into 95 % of its room, slowly against its sound.
+dimensions = 2
+spacing = "0.02 m"
+expected_speed = 1
+[scheme.wall]
+treatment = "{wall}"
+[time]
+end = "0.4 s"
+[domain]
+low = [-0.5, -0.5]
+high = [1, 1]
+[[fluid]]
+shape = {{ type = "box", low = [0, 0], high = [0.4, 0.2] }}
+[[wall]]
+name = "vessel"
+open = ["x-"]
+shape = {{ type = "box", low = [0, 0], high = [0.4, 0.2] }}
+[[wall]]
+name = "piston"
+open = ["x+", "y-", "y+"]
+shape = {{ type = "box", low = [0, 0], high = [0.4, 0.2] }}
+displacement = ["0.01 * (1 - cos(pi * t / 0.4))", 0]
+[output]
+energies = "1 ms"
+snapshots = "0.1 s"
+{gauge}"""
+
+COUETTE = """# Plane Couette flow from rest: Morris, Fox & Zhu (1997).
+dimensions = 2
+spacing = "{spacing} m"
+expected_speed = "1.25e-5 m/s"
+[domain]
+low = [0, -1e-3]
+high = [6e-4, 2e-3]
+periodic = ["x"]
+[scheme.viscosity]
+form = "morris"
+[scheme.artificial_viscosity]
+form = "none"
+[scheme.wall]
+treatment = "{wall}"
+slip = "{slip}"
+[time]
+end = "0.2251 s"
+[[fluid]]
+viscosity = "1e-3 Pa s"
+shape = {{ type = "box", low = [0, 0], high = [6e-4, 1e-3] }}
+[[wall]]
+name = "floor"
+open = ["x-", "x+", "y+"]
+shape = {{ type = "box", low = [0, 0], high = [6e-4, 1e-3] }}
+[[wall]]
+name = "lid"
+open = ["x-", "x+", "y-"]
+shape = {{ type = "box", low = [0, 0], high = [6e-4, 1e-3] }}
+slide = [1.25e-5, 0]
+[output]
+snapshots = "0.0225 s"
+"""
+
+FORCE = """[[gauge]]
+name = "{wall}"
+type = "wall_force"
+wall = "{wall}"
+every = "1 ms"
+"""
+
+
+def treatments(program):
+    """Name, whether it reflects, and whether it has particles, of each wall of the list that holds fluid."""
+    rows = [line.split() for line in undine(program, "list", "walls").splitlines()[1:]]
+    for row in rows:
+        if row[0] == "none":
+            continue
+        reflects = undine(program, "show", "walls/" + row[0]).split("reflects")[1].split()[0] == "yes"
+        yield row[0], reflects, row[0] not in ("elastic", "distance")
+
+
+def run(program, folder, text, *words):
+    case = folder + ".toml"
+    with open(case, "w", encoding="ascii") as out:
+        out.write(text)
+    undine(program, "run", case, "--out", folder, "--quiet", "--threads", "1", *words)
+    return folder
+
+
+def snapshots(folder):
+    """Time order: x, v, p of the fluid's particles."""
+    for name in sorted(glob.glob(os.path.join(folder, "*.vtkhdf"))):
+        data = h5py.File(name)["VTKHDF"]
+        fluid = data["PointData"]["group"][:] == 0
+        yield data["Points"][:][fluid], data["PointData"]["v"][:][fluid], data["PointData"]["p"][:][fluid]
+
+
+def worst_residual(folder, scale=None):
+    rows = read_csv(os.path.join(folder, "energies.csv"))
+    return max(abs(row["residual"]) for row in rows) / (scale or rows[0]["potential"])
+
+
+# Largest error of the pressure, over that at the bottom; twice and more of what is measured.
+PRESSURE_LIMIT = {"elastic": 1, "distance": 1, "repulsive": 1}
+
+
+def still_water(program, scratch, _):
+    """Fluid at rest stays in the tank, at rest; its pressure is hydrostatic; its weight rests on the walls; the audit closes."""
+    weight = 1000 * 9.81 * 0.4 * 0.2
+    for wall, reflects, particles in treatments(program):
+        gauge = FORCE.format(wall="tank") if particles else ""
+        folder = run(program, os.path.join(scratch, wall), TANK.format(wall=wall, guard=str(reflects).lower(), gauge=gauge))
+        error = speed = 0
+        out = 0
+        for x, v, p in snapshots(folder):
+            error = max(error, float(numpy.sqrt(numpy.mean((p - 1000 * 9.81 * (0.2 - x[:, 1])) ** 2))) / (1000 * 9.81 * 0.2))
+            speed = max(speed, float(numpy.max(numpy.linalg.norm(v, axis=1))))
+            out += int(numpy.sum((x[:, 0] < 0) | (x[:, 0] > 0.4) | (x[:, 1] < 0)))
+        limit = PRESSURE_LIMIT.get(wall, 0.05)
+        require(error <= limit, f"{wall}: RMS pressure error {error:.4f} of the bottom pressure (limit {limit})")
+        require(speed <= 0.5, f"{wall}: largest speed {speed:.3g} m/s")
+        require(out == 0, f"{wall}: {out} particles outside")
+        residual = worst_residual(folder)
+        require(residual <= 0.01, f"{wall}: audit residual {residual:.2e} of the initial potential energy (limit 1e-2)")
+        if particles:
+            rows = read_csv(os.path.join(folder, "gauges", "tank.csv"))
+            held = -numpy.mean([row["force_y"] for row in rows[len(rows) // 5:]]) / weight
+            require(abs(held - 1) <= 0.03, f"{wall}: the walls carry {held:.4f} of the weight")
+
+
+def piston(program, scratch, _):
+    """Pressed into 95 % of its room: none gets past the piston, the audit closes, and the work is that of the equation of state and of force
+    times velocity of the piston."""
+    c, rho = 10.0, 1000.0
+    s = 1 / 0.95
+    exact = 0.4 * 0.2 * rho * c * c / 7 * ((s ** 6 - 1) / 6 + (1 / s - 1))  # m e(rho) of Tait's law
+    for wall, _, particles in treatments(program):
+        folder = run(program, os.path.join(scratch, wall), PISTON.format(wall=wall, gauge=FORCE.format(wall="piston") if particles else ""))
+        rows = read_csv(os.path.join(folder, "energies.csv"))
+        gained = -rows[-1]["walls"]
+        x, _, _ = list(snapshots(folder))[-1]
+        require(bool(numpy.all((x[:, 0] > 0.02 - 1e-9) & (x[:, 0] < 0.4) & (x[:, 1] > 0) & (x[:, 1] < 0.2))), f"{wall}: all particles are in the room")
+        print(f"        {wall}: work {gained:.4g} J, exact {exact:.4g} J")
+        residual = worst_residual(folder, exact)
+        require(residual <= 0.01, f"{wall}: audit residual {residual:.2e} of the work (limit 1e-2)")
+        if not particles:
+            continue
+        forces = read_csv(os.path.join(folder, "gauges", "piston.csv"))
+        t = numpy.array([row["time"] for row in forces])
+        push = -numpy.array([row["force_x"] for row in forces])
+        v = 0.01 * numpy.pi / 0.4 * numpy.sin(numpy.pi * t / 0.4)
+        work = float(numpy.sum(0.5 * (push * v)[1:] * numpy.diff(t) + 0.5 * (push * v)[:-1] * numpy.diff(t)))
+        print(f"        {wall}: force times velocity {work:.4g} J")
+
+
+def moving_walls_same_bits(program, scratch, _):
+    """With a moving wall, every treatment gives the same bits for 1 and 2 threads, and resumed at half time."""
+    for wall, _, _ in treatments(program):
+        text = PISTON.format(wall=wall, gauge="")
+        sums = []
+        for name, threads in (("one", "1"), ("two", "2")):
+            folder = run(program, os.path.join(scratch, wall + name), text, "--threads", threads, "--set", "time.end=0.1 s")
+            sums.append(undine(program, "checksum", newest_checkpoint(folder)).strip())
+        folder = run(program, os.path.join(scratch, wall + "half"), text, "--set", "time.end=0.05 s", "--set", "time.largest_step=1 s")
+        folder = run(program, os.path.join(scratch, wall + "half"), text, "--set", "time.end=0.1 s", "--resume")
+        sums.append(undine(program, "checksum", newest_checkpoint(folder)).strip())
+        require(len(set(sums)) == 1, f"{wall}: 1 thread, 2 threads, resumed: {sums}")
+
+
+def couette(program, scratch, reference):
+    """No-slip walls and a sliding lid: velocities of the start-up within 3 % of the lid's, of the exact series."""
+    exact = numpy.genfromtxt(reference, delimiter=",", comments="#", names=True)
+    for wall in ("adami", "mdbc"):
+        for slip in ("no_slip", "wall_velocity"):
+            folder = run(program, os.path.join(scratch, wall + slip), COUETTE.format(wall=wall, slip=slip, spacing=5e-5))
+            found = list(snapshots(folder))
+            worst = 0
+            for t in (0.0225, 0.045, 0.1125, 0.225):
+                x, v, _ = found[round(t / 0.0225)]
+                rows = exact[numpy.isclose(exact["t_s"], t)]
+                there = numpy.interp(x[:, 1], rows["y_m"], rows["u_m_per_s"])
+                error = float(numpy.sqrt(numpy.mean((v[:, 0] - there) ** 2))) / 1.25e-5
+                print(f"        {wall}, {slip}: t = {t} s, L2 error {error:.4f} of the lid's velocity")
+                worst = max(worst, error)
+            if slip == "no_slip":
+                require(worst <= 0.03, f"{wall}, {slip}: largest L2 error {worst:.4f} (limit 0.03)")
+
+
+if __name__ == "__main__":
+    check, binary, data = sys.argv[1:4]
+    with tempfile.TemporaryDirectory() as place:
+        globals()[check](binary, place, data)
