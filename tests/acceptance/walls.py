@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Acceptance of every wall treatment of the program's list: walls.py CHECK UNDINE COUETTE_CSV. Each check prints its criteria and numbers."""
+"""Acceptance of every wall treatment of the program's list: walls.py CHECK UNDINE. Each check prints its criteria and numbers."""
 import glob
 import os
 import sys
@@ -105,14 +105,15 @@ def treatments(program):
         if row[0] == "none":
             continue
         reflects = undine(program, "show", "walls/" + row[0]).split("reflects")[1].split()[0] == "yes"
-        yield row[0], reflects, row[0] not in ("elastic", "distance")
+        yield row[0], reflects, row[0] not in ("elastic", "distance")  # these have no particles
 
 
 def run(program, folder, text, *words):
     case = folder + ".toml"
     with open(case, "w", encoding="ascii") as out:
         out.write(text)
-    undine(program, "run", case, "--out", folder, "--quiet", "--threads", "1", *words)
+    threads = () if "--threads" in words else ("--threads", "1")
+    undine(program, "run", case, "--out", folder, "--quiet", *threads, *words)
     return folder
 
 
@@ -129,11 +130,14 @@ def worst_residual(folder, scale=None):
     return max(abs(row["residual"]) for row in rows) / (scale or rows[0]["potential"])
 
 
-# Largest error of the pressure, over that at the bottom; twice and more of what is measured.
-PRESSURE_LIMIT = {"elastic": 1, "distance": 1, "repulsive": 1}
+# Largest RMS error of the pressure, over that at the bottom. The measured ones are 0.032 (wall_particles) to 0.041 (combined, mdbc). Walls that do
+# not answer in pressure keep fluid in and close the audit, no more: it jitters between them (Saalfeld 2012, 7.2 and 7.3).
+PRESSURE_LIMIT = {"elastic": 4, "distance": 1, "repulsive": 1}
+SPEED_LIMIT = {"elastic": 2, "distance": 0.5, "repulsive": 0.5}
+RESIDUAL_LIMIT = {"elastic": 0.1}  # reflections are events of first order
 
 
-def still_water(program, scratch, _):
+def still_water(program, scratch):
     """Fluid at rest stays in the tank, at rest; its pressure is hydrostatic; its weight rests on the walls; the audit closes."""
     weight = 1000 * 9.81 * 0.4 * 0.2
     for wall, reflects, particles in treatments(program):
@@ -147,17 +151,19 @@ def still_water(program, scratch, _):
             out += int(numpy.sum((x[:, 0] < 0) | (x[:, 0] > 0.4) | (x[:, 1] < 0)))
         limit = PRESSURE_LIMIT.get(wall, 0.05)
         require(error <= limit, f"{wall}: RMS pressure error {error:.4f} of the bottom pressure (limit {limit})")
-        require(speed <= 0.5, f"{wall}: largest speed {speed:.3g} m/s")
+        limit = SPEED_LIMIT.get(wall, 0.1)
+        require(speed <= limit, f"{wall}: largest speed {speed:.3g} m/s (limit {limit})")
         require(out == 0, f"{wall}: {out} particles outside")
         residual = worst_residual(folder)
-        require(residual <= 0.01, f"{wall}: audit residual {residual:.2e} of the initial potential energy (limit 1e-2)")
+        limit = RESIDUAL_LIMIT.get(wall, 1e-3)
+        require(residual <= limit, f"{wall}: audit residual {residual:.2e} of the initial potential energy (limit {limit})")
         if particles:
             rows = read_csv(os.path.join(folder, "gauges", "tank.csv"))
-            held = -numpy.mean([row["force_y"] for row in rows[len(rows) // 5:]]) / weight
+            held = -numpy.mean([row["fy"] for row in rows[len(rows) // 5:]]) / weight
             require(abs(held - 1) <= 0.03, f"{wall}: the walls carry {held:.4f} of the weight")
 
 
-def piston(program, scratch, _):
+def piston(program, scratch):
     """Pressed into 95 % of its room: none gets past the piston, the audit closes, and the work is that of the equation of state and of force
     times velocity of the piston."""
     c, rho = 10.0, 1000.0
@@ -176,13 +182,13 @@ def piston(program, scratch, _):
             continue
         forces = read_csv(os.path.join(folder, "gauges", "piston.csv"))
         t = numpy.array([row["time"] for row in forces])
-        push = -numpy.array([row["force_x"] for row in forces])
+        push = -numpy.array([row["fx"] for row in forces])
         v = 0.01 * numpy.pi / 0.4 * numpy.sin(numpy.pi * t / 0.4)
         work = float(numpy.sum(0.5 * (push * v)[1:] * numpy.diff(t) + 0.5 * (push * v)[:-1] * numpy.diff(t)))
         print(f"        {wall}: force times velocity {work:.4g} J")
 
 
-def moving_walls_same_bits(program, scratch, _):
+def moving_walls_same_bits(program, scratch):
     """With a moving wall, every treatment gives the same bits for 1 and 2 threads, and resumed at half time."""
     for wall, _, _ in treatments(program):
         text = PISTON.format(wall=wall, gauge="")
@@ -190,32 +196,38 @@ def moving_walls_same_bits(program, scratch, _):
         for name, threads in (("one", "1"), ("two", "2")):
             folder = run(program, os.path.join(scratch, wall + name), text, "--threads", threads, "--set", "time.end=0.1 s")
             sums.append(undine(program, "checksum", newest_checkpoint(folder)).strip())
-        folder = run(program, os.path.join(scratch, wall + "half"), text, "--set", "time.end=0.05 s", "--set", "time.largest_step=1 s")
+        folder = run(program, os.path.join(scratch, wall + "half"), text, "--set", "time.end=0.05 s")
         folder = run(program, os.path.join(scratch, wall + "half"), text, "--set", "time.end=0.1 s", "--resume")
         sums.append(undine(program, "checksum", newest_checkpoint(folder)).strip())
         require(len(set(sums)) == 1, f"{wall}: 1 thread, 2 threads, resumed: {sums}")
 
 
-def couette(program, scratch, reference):
-    """No-slip walls and a sliding lid: velocities of the start-up within 3 % of the lid's, of the exact series."""
-    exact = numpy.genfromtxt(reference, delimiter=",", comments="#", names=True)
+def couette_series(y, t):
+    """Velocity over that of the lid: Morris, Fox & Zhu (1997), eq. 22 with y counted from the floor at rest; L = 1e-3 m, nu = 1e-6 m^2/s."""
+    n = numpy.arange(1, 400)[:, None]
+    waves = 2 / (n * numpy.pi) * (-1.0) ** n * numpy.sin(n * numpy.pi * y / 1e-3) * numpy.exp(-1e-6 * (n * numpy.pi / 1e-3) ** 2 * t)
+    return y / 1e-3 + waves.sum(axis=0)
+
+
+def couette(program, scratch):
+    """No-slip walls and a sliding lid: velocities of the start-up within 1.5 % (L2) of the lid's, of the exact series; twice what is measured.
+    Walls that show their own velocity only are worse at every time."""
     for wall in ("adami", "mdbc"):
+        errors = {}
         for slip in ("no_slip", "wall_velocity"):
             folder = run(program, os.path.join(scratch, wall + slip), COUETTE.format(wall=wall, slip=slip, spacing=5e-5))
             found = list(snapshots(folder))
-            worst = 0
-            for t in (0.0225, 0.045, 0.1125, 0.225):
-                x, v, _ = found[round(t / 0.0225)]
-                rows = exact[numpy.isclose(exact["t_s"], t)]
-                there = numpy.interp(x[:, 1], rows["y_m"], rows["u_m_per_s"])
-                error = float(numpy.sqrt(numpy.mean((v[:, 0] - there) ** 2))) / 1.25e-5
-                print(f"        {wall}, {slip}: t = {t} s, L2 error {error:.4f} of the lid's velocity")
-                worst = max(worst, error)
-            if slip == "no_slip":
-                require(worst <= 0.03, f"{wall}, {slip}: largest L2 error {worst:.4f} (limit 0.03)")
+            errors[slip] = []
+            for k in (1, 2, 5, 10):
+                x, v, _ = found[k]
+                exact = couette_series(x[:, 1], 0.0225 * k)
+                errors[slip].append(float(numpy.sqrt(numpy.mean((v[:, 0] / 1.25e-5 - exact) ** 2))))
+        require(max(errors["no_slip"]) <= 0.015, f"{wall}: L2 errors {['%.4f' % e for e in errors['no_slip']]} (limit 0.015)")
+        require(all(a < 0.5 * b for a, b in zip(errors["no_slip"], errors["wall_velocity"])),
+                f"{wall}: with the wall's own velocity {['%.4f' % e for e in errors['wall_velocity']]}")
 
 
 if __name__ == "__main__":
-    check, binary, data = sys.argv[1:4]
+    check, binary = sys.argv[1:3]
     with tempfile.TemporaryDirectory() as place:
-        globals()[check](binary, place, data)
+        globals()[check](binary, place)

@@ -135,6 +135,7 @@ std::vector<Axis> make_axes() {
       axis_of<terms::Measures>("measures", "What a run measures with: gradients, and the approach speed for the step"),
       axis_of<materials::EquationsOfState>("equations_of_state", "Equations of state"),
       axis_of<walls::Walls>("walls", "Wall treatments"),
+      axis_of<terms::WallForces>("wall_forces", "Forces of wall particles apart from pressure"),
       axis_of<integrators::Integrators>("integrators", "Time integrators"),
       axis_of_infos("searches", "Neighbour searches", search_infos()),
       axis_of_words("backends", "Who runs the loops", backend_names, backend_titles),
