@@ -100,6 +100,28 @@ void read_backend(const Table& scheme, WeaklyCompressibleOptions<N>& options) {
   options.neighbours.list_memory = 1e6 * search.in_range("list_memory_mb", unit::one, {0, 1e9}, 0);
 }
 
+/// What viscosities do at walls.
+template <int N>
+void read_slip(const Table& wall, WeaklyCompressibleOptions<N>& options) {
+  options.wall_friction = wall.flag("friction", true);
+  if (!wall.has("slip")) return;
+  if (wall.has("friction"))
+    wall.fail("slip", "both 'slip' and 'friction' are given", "friction = false is slip = \"free_slip\"",
+              "keep 'slip'");
+  const std::string slip = wall.choice("slip", {"free_slip", "wall_velocity", "no_slip"});
+  options.wall_friction = slip != "free_slip";
+  options.wall_no_slip = slip == "no_slip";
+  if (!options.wall_no_slip) return;
+  using walls::WallDensity;
+  if (options.wall_density != WallDensity::extrapolated && options.wall_density != WallDensity::mirrored)
+    wall.fail("slip", "these walls cannot hold the fluid at their surface",
+              "only the treatments 'adami' and 'mdbc' answer with a velocity",
+              "take one of them, or slip = \"wall_velocity\"");
+  if (!options.viscosity)
+    wall.fail("slip", "nothing holds the fluid at a no-slip wall", "the case has no viscous force",
+              "choose scheme.viscosity.form, such as \"morris\"");
+}
+
 template <int N, class Preset>
 SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressibleOptions<N>& options, Preset) {
   SchemeChoice choice;
@@ -137,13 +159,15 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   const std::string treatment = wall.choice("treatment", walls::Walls::names(), std::string(Preset::wall));
   walls::Walls::visit(walls::Walls::index_of(treatment), [&]<class W>(W) {
     options.wall_density = W::density;
+    choice.wall_force = walls::force_of<W>();
     choice.reflects = wall.flag("guard", W::reflects || Preset::guard);
   });
-  choice.wall_particles = options.wall_density != walls::WallDensity::none;
+  const bool repels = choice.wall_force == walls::WallForce::repulsion;
+  choice.wall_particles = options.wall_density != walls::WallDensity::none || repels;
   options.wall_pulls = wall.flag("pulls", Preset::wall_pulls);
-  options.wall_friction = wall.flag("friction", true);
+  read_slip(wall, options);
   choice.restitution = wall.in_range("restitution", unit::one, {0, 1}, 1.0);
-  const std::int64_t layers = wall.integer("layers", Preset::wall_layers);
+  const std::int64_t layers = wall.integer("layers", repels ? 1 : Preset::wall_layers);
   if (layers < 0 || layers > 100)
     wall.fail("layers", fmt::format("a wall cannot have {} layers", layers), {},
               "give 1 to 100, or 0 for as many as the support needs");

@@ -10,6 +10,7 @@
 
 #include "undine/app/case_particles.hpp"
 #include "undine/app/case_shapes.hpp"
+#include "undine/app/case_walls.hpp"
 #include "undine/core/error.hpp"
 #include "undine/geometry/fill.hpp"
 #include "undine/geometry/points.hpp"
@@ -39,7 +40,9 @@ struct Body {
   std::vector<Vec3> points;
   std::map<std::string, std::vector<double>> given;  ///< columns of a particle list: vx, vy, vz, rho, m
   Table table;
-  bool may_coincide = true;  ///< points that a lattice laid are apart from each other
+  bool may_coincide = true;                         ///< points that a lattice laid are apart from each other
+  int motion = -1;                                  ///< of a wall: its number in WallPlan::motions
+  std::shared_ptr<ReflectingSurface> surface = {};  ///< of a wall with a shape: that alone
 };
 
 constexpr std::int64_t most_layers = 100;  ///< of a wall
@@ -68,6 +71,8 @@ class Reader {
     fill_store();
     read_body_force();
     start_walls();
+    plan_walls();
+    connect_distance();
     connect_reflector();
     return std::move(setup_);
   }
@@ -169,15 +174,22 @@ class Reader {
     const FaceSet open = parse_faces(table.choices("open", {faces.begin(), faces.begin() + 2 * N}, {}));
     const bool has_list = table.has("particles");
     const bool reflects = setup_.choice.reflects && table.flag("reflects", true);
+    const bool pushes = setup_.choice.wall_force == walls::WallForce::distance;
     ShapePtr shape;
     if (!has_list || shape_table.exists()) shape = read_shape(shape_table, N);
-    if (shape && reflects) {
-      const auto box = shape->as_box();
-      if (box && fluid_side == Side::inside) {
-        surface_->add_tank(*box, N, open, setup_.choice.restitution);
-      } else {
-        surface_->add(shape, fluid_side, setup_.choice.restitution);
-      }
+    if (!shape && (pushes || setup_.options.wall_density == walls::WallDensity::mirrored))
+      table.fail("particles", "this wall has no shape", "its treatment needs to know where the surface is",
+                 "add the shape on whose surface the particles lie, or choose another treatment");
+    std::vector<PlacedSurface> placed;
+    const auto add_to = [&](const std::shared_ptr<ReflectingSurface>& surface) {
+      placed.push_back({surface, add_surface(*surface, shape, fluid_side, open)});
+    };
+    if (shape && reflects) add_to(surface_);
+    if (shape && pushes) add_to(pushing_);
+    if (!placed.empty() || setup_.choice.wall_particles) body.motion = read_motion(table, placed);
+    if (shape) {
+      body.surface = std::make_shared<ReflectingSurface>();
+      add_surface(*body.surface, shape, fluid_side, open);
     }
     if (shape && fluid_side == Side::inside) container_.include(shape->bounds());
     unused(table, {"reflects", "sheet", "layers", "thin"});
@@ -189,9 +201,24 @@ class Reader {
     if (setup_.choice.wall_particles) bodies_.push_back(std::move(body));
   }
 
+  std::size_t add_surface(ReflectingSurface& surface, const ShapePtr& shape, Side fluid, const FaceSet& open) const {
+    const auto box = shape->as_box();
+    if (box && fluid == Side::inside) return surface.add_tank(*box, N, open, setup_.choice.restitution);
+    return surface.add(shape, fluid, setup_.choice.restitution);
+  }
+
+  /// The number of the wall's motion in the options; -1 where it stands still.
+  int read_motion(const Table& table, const std::vector<PlacedSurface>& placed) {
+    auto motion = read_wall_motion<N>(table, setup_.choice, placed, fastest_wall_);
+    if (!motion) return -1;
+    setup_.options.walls.motions.push_back(std::move(*motion));
+    return static_cast<int>(setup_.options.walls.motions.size()) - 1;
+  }
+
   std::vector<Vec3> wall_points(const Table& table, const Shape& shape, Side fluid_side, const FaceSet& open) {
     const auto& choice = setup_.choice;
-    const bool sheet = table.flag("sheet", choice.wall_layers == 1);
+    const bool repels = choice.wall_force == walls::WallForce::repulsion;
+    const bool sheet = table.flag("sheet", choice.wall_layers == 1 && !repels);
     if (sheet) {
       const auto box = shape.as_box();
       if (!box)
@@ -214,7 +241,34 @@ class Reader {
           fmt::format("set layers = {}, leave it out, or say thin = true if this is meant", needed));
     const Side wall_side = fluid_side == Side::inside ? Side::outside : Side::inside;
     check_size(table, shape, layers, wall_side);
-    return with_place(table, [&] { return fill_shell(shape, {setup_.spacing, layers, wall_side, N, 0.5, open}); });
+    const double offset = repels && !shifted() ? 0 : 0.5;
+    return with_place(table, [&] { return fill_shell(shape, {setup_.spacing, layers, wall_side, N, offset, open}); });
+  }
+
+  /// Whether repulsive particles lie half a spacing behind the surface: Niedoba (2012), 3.3.
+  bool shifted() const { return root_.table("scheme").table("wall").flag("shift", true); }
+
+  /// Monaghan (1994) takes D = 5 g H, H the depth of the fluid; the expected speed is sqrt(2 g H).
+  void read_repulsion() {
+    const Table table = root_.table("scheme").table("wall");
+    terms::Repulsion repulsion;
+    repulsion.D = 2.5 * sq(setup_.expected_speed);
+    // Fluid on the lattice begins half a spacing from the surface, where it is to feel nothing.
+    repulsion.r_0 = (shifted() ? 1 : 0.5) * setup_.spacing;
+    read_parameters(table, repulsion);
+    const double H = setup_.options.support.uniform;
+    if (!(repulsion.r_0 > 0 && repulsion.r_0 <= H))
+      table.fail("r_0", fmt::format("walls cannot repel from {:.4g} m", repulsion.r_0),
+                 fmt::format("neighbours are known up to the support radius H = {:.4g} m only", H),
+                 fmt::format("take about one spacing, {:.4g} m", setup_.spacing));
+    for (const double p : {repulsion.p1, repulsion.p2})
+      if (std::abs(2 * p - std::round(2 * p)) > 1e-9)
+        table.fail(p == repulsion.p1 ? "p1" : "p2", fmt::format("the exponent {} is no multiple of 1/2", p), {},
+                   "take 12 and 6, 4 and 2, or 9.5 and 4");
+    if (!(repulsion.p1 > repulsion.p2))
+      table.fail("p1", fmt::format("p1 = {} is not larger than p2 = {}", repulsion.p1, repulsion.p2),
+                 "walls would attract", "take 12 and 6, 4 and 2, or 9.5 and 4");
+    setup_.options.repulsion = repulsion;
   }
 
   void check_names() {
@@ -341,7 +395,15 @@ class Reader {
         }
       }
     if (highest > lowest) speed = std::max(speed, std::sqrt(2 * (highest - lowest)));
+    if (!root_.has("expected_speed") && fastest_wall_ > 1.0001 * speed)
+      throw InputError({.what = "walls move faster than the fluid would by itself",
+                        .where = root_.where("wall"),
+                        .why = fmt::format("they reach {:.4g} m/s until time.end; gravity and the initial velocities "
+                                           "give {:.4g} m/s, from which the speed of sound would follow",
+                                           fastest_wall_, speed),
+                        .fix = fmt::format("set expected_speed, such as {:.4g} (m/s)", fastest_wall_)});
     setup_.expected_speed = root_.positive("expected_speed", unit::velocity, std::max(speed, 1e-6));
+    if (setup_.choice.wall_force == walls::WallForce::repulsion) read_repulsion();
     for (const Table& table : fluids)
       setup_.options.materials.push_back(read_material(table, setup_.choice, setup_.expected_speed, setup_.warnings));
     // E_pot counts from the lowest place that fluid or wall reaches.
@@ -524,6 +586,38 @@ class Reader {
     return std::nan("");
   }
 
+  /// What the scheme is told of walls beyond their particles, which have their ids in the order of the store here.
+  void plan_walls() {
+    auto& plan = setup_.options.walls;
+    const IndexRange walls = setup_.store.range(Group::wall);
+    const bool mirrors = setup_.options.wall_density == walls::WallDensity::mirrored;
+    if (!plan.moves() && !mirrors) return;
+    plan.first_id = static_cast<std::int64_t>(walls.begin);
+    const auto x = setup_.store.template get<field::x>();
+    for (std::size_t i = walls.begin; i < walls.end; ++i) {
+      const Body& body = bodies_[static_cast<std::size_t>(setup_.body_of_id[i])];
+      if (plan.moves()) {
+        plan.motion.push_back(body.motion);
+        plan.start.push_back(x[i]);
+      }
+      if (mirrors) plan.to_mirror.push_back(narrow<N>(to_mirror(*body.surface, widen<N>(x[i]))));
+    }
+  }
+
+  /// From a point in the wall to its mirror image across the nearest place of the surface.
+  static Vec3 to_mirror(const ReflectingSurface& surface, const Vec3& p) {
+    return -2 * surface.depth(0, p) * surface.normal(0, p);
+  }
+
+  void connect_distance() {
+    if (setup_.choice.wall_force != walls::WallForce::distance) return;
+    const Table table = root_.table("scheme").table("wall");
+    const double distance = table.positive("distance", unit::length, 0.5 * setup_.spacing);
+    setup_.options.pushed_out = [surface = pushing_, distance](const Vec<N>& x) -> Vec<N> {
+      return narrow<N>(surface->pushed_out(widen<N>(x), distance));
+    };
+  }
+
   void connect_reflector() {
     if (surface_->empty()) return;
     setup_.options.reflector = [surface = surface_](const Vec<N>& from, const Vec<N>& to,
@@ -552,6 +646,8 @@ class Reader {
   std::map<std::string, std::vector<Expression>> velocities_;
   Bounds container_;
   std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();
+  std::shared_ptr<ReflectingSurface> pushing_ = std::make_shared<ReflectingSurface>();
+  double fastest_wall_ = 0;  ///< m/s, until time.end
 };
 
 }  // namespace

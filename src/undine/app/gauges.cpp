@@ -217,7 +217,8 @@ class WallForce : public Gauge<N> {
       const Vec<N> force = m[i] * acc[i];
       return Total{force, cross(in_3d(x[i] - about_), in_3d(force)), 1};
     });
-    if (total.particles == 0 || flow.options().wall_density == walls::WallDensity::none)
+    const auto& options = flow.options();
+    if (total.particles == 0 || (options.wall_density == walls::WallDensity::none && !options.repulsion))
       throw InputError(
           {.what = "this gauge finds no wall particles to measure the force on",
            .where = where_,

@@ -48,7 +48,8 @@ constexpr std::array<std::string_view, precision_names.size()> precision_titles{
     "State in double, pairs in float on relative positions", "State and pairs in double"};
 
 // In the order of the enumerators.
-constexpr std::string_view wall_density_words[]{"none", "by continuity", "from the fluid's sum"};
+constexpr std::string_view wall_density_words[]{"none", "by continuity", "from the fluid's sum",
+                                                "from the fluid's pressure", "from the fluid mirrored"};
 constexpr std::string_view rank_words[]{"scalar", "vector", "tensor"};
 constexpr std::string_view role_words[]{"constant", "state", "rate", "derived"};
 constexpr std::string_view join_words[]{"sum", "max"};
@@ -141,6 +142,7 @@ std::vector<Axis> make_axes() {
       axis_of<terms::Measures>("measures", "What a run measures with: gradients, and the approach speed for the step"),
       axis_of<materials::EquationsOfState>("equations_of_state", "Equations of state"),
       axis_of<walls::Walls>("walls", "Wall treatments"),
+      axis_of<terms::WallForces>("wall_forces", "Forces of wall particles apart from pressure"),
       axis_of<integrators::Integrators>("integrators", "Time integrators"),
       axis_of_infos("searches", "Neighbour searches", search_infos()),
       axis_of_words("backends", "Who runs the loops", backend_names, backend_titles),

@@ -37,6 +37,9 @@ class PairSweep {
   std::tuple<Uses...>& uses() { return uses_; }
   const std::tuple<Uses...>& uses() const { return uses_; }
 
+  /// Takes from no group but these, whatever the uses say.
+  void take_from(const std::array<bool, group_count>& sources) { sources_ = sources; }
+
   const std::string& name() const { return name_; }
   Group target() const { return target_; }
   /// What the terms read as they are set, so that fields of other alternatives need not exist.
@@ -75,7 +78,8 @@ class PairSweep {
     return found;
   }
 
-  void run(const SweepContext<N>& context, const Backend& backend) {
+  void run(SweepContext<N> context, const Backend& backend) {
+    context.sources = sources_;
     switch (backend.kind) {
       case BackendKind::serial:
         run_serial(context);
@@ -138,7 +142,8 @@ class PairSweep {
   }
 
   bool takes_from(Group group) const {
-    return std::apply([&](const auto&... use) { return (use.acts_on(group) || ...); }, uses_);
+    return sources_[static_cast<int>(group)] &&
+           std::apply([&](const auto&... use) { return (use.acts_on(group) || ...); }, uses_);
   }
 
   template <class F>
@@ -150,6 +155,7 @@ class PairSweep {
   std::string name_;
   Group target_;
   Booking booking_;
+  std::array<bool, group_count> sources_{true, true};
   std::tuple<Uses...> uses_;
 };
 

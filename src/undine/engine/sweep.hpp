@@ -74,6 +74,7 @@ struct SweepContext {
   Support support;
   std::array<KernelChoice, kernel_roles> kernels;
   double rho_reference = 0;  ///< kg/m^3; pair arithmetic in float carries densities as deviations from it
+  std::array<bool, group_count> sources{true, true};  ///< groups that the sweep takes from, whatever its uses say
 };
 
 /// How much a loop over pairs knows when it is compiled. What it does not know is looked up once for each packet of

@@ -24,11 +24,11 @@ constexpr int components_of(Fields<F...>) {
   return (F::info.components(N) + ... + 0);
 }
 
-/// Power of a contribution to a rate: force times velocity for `acc`, m p / rho^2 times the rate for a density rate
-/// (the work that compression stores), nothing for any other field.
+/// Power of a contribution to a rate: force times velocity for `acc` and `acc_wall`, m p / rho^2 times the rate for a
+/// density rate (the work that compression stores), nothing for any other field.
 template <class Tag, class Target, class Value>
 double power_of(const Target& a, const Value& rate) {
-  if constexpr (std::is_same_v<Tag, field::acc>) {
+  if constexpr (std::is_same_v<Tag, field::acc> || std::is_same_v<Tag, field::acc_wall>) {
     return a.m * dot(a.v, rate);
   } else if constexpr (std::is_same_v<Tag, field::drho> || std::is_same_v<Tag, field::drho_diff>) {
     return a.m * a.p / sq(a.rho) * rate;
@@ -186,7 +186,8 @@ class SweepLoop {
     return bits;
   }
   bool any_acts_on(Group source) const {
-    return std::apply([&](const auto&... use) { return (use.acts_on(source) || ...); }, uses_);
+    return context_.sources[static_cast<int>(source)] &&
+           std::apply([&](const auto&... use) { return (use.acts_on(source) || ...); }, uses_);
   }
 
   template <SweepPath path>

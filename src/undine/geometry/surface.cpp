@@ -38,25 +38,31 @@ struct ReflectingSurface::Contact {
 };
 
 double ReflectingSurface::Wall::depth(const Vec3& p) const {
-  const double d = shape->signed_distance(p);
+  const double d = shape->signed_distance(p - offset);
   return fluid == Side::inside ? -d : d;
 }
 
 Vec3 ReflectingSurface::Wall::normal(const Vec3& p) const {
-  const Vec3 n = shape->normal(p);
+  const Vec3 n = shape->normal(p - offset);
   return fluid == Side::inside ? -n : n;
 }
 
-void ReflectingSurface::add_tank(const Bounds& box, int dimensions, const FaceSet& open, double restitution) {
+std::optional<Crossing> ReflectingSurface::Wall::first_crossing(const Vec3& from, const Vec3& to) const {
+  auto crossing = shape->first_crossing(from - offset, to - offset, fluid);
+  if (crossing) crossing->point += offset;
+  return crossing;
+}
+
+std::size_t ReflectingSurface::add_tank(const Bounds& box, int dimensions, const FaceSet& open, double restitution) {
   Bounds walls = box;
   for (int k = 0; k < 3; ++k) {
     if (open.has(k, 0)) walls.lo[k] = -unbounded;
     if (open.has(k, 1)) walls.hi[k] = unbounded;
   }
-  add(make_box(walls.lo, walls.hi, dimensions), Side::inside, restitution);
+  return add(make_box(walls.lo, walls.hi, dimensions), Side::inside, restitution);
 }
 
-void ReflectingSurface::add(ShapePtr shape, Side fluid, double restitution) {
+std::size_t ReflectingSurface::add(ShapePtr shape, Side fluid, double restitution) {
   if (!shape) throw InputError({.what = "a reflecting wall needs a shape"});
   if (!(restitution >= 0 && restitution <= 1)) {
     throw InputError({.what = "the restitution of a wall must lie in 0..1",
@@ -67,11 +73,28 @@ void ReflectingSurface::add(ShapePtr shape, Side fluid, double restitution) {
   const bool tank = fluid == Side::inside && shape->as_box().has_value();
   scale_ = std::max(scale_, bounds.scale());
   walls_.push_back({std::move(shape), fluid, restitution, bounds, tank});
+  return walls_.size() - 1;
 }
 
-void ReflectingSurface::add_plane(const Vec3& point, const Vec3& normal_to_fluid, double restitution) {
+std::size_t ReflectingSurface::add_plane(const Vec3& point, const Vec3& normal_to_fluid, double restitution) {
   scale_ = std::max(scale_, largest(point));
-  add(make_half_space(point, normal_to_fluid), Side::outside, restitution);
+  return add(make_half_space(point, normal_to_fluid), Side::outside, restitution);
+}
+
+void ReflectingSurface::place(std::size_t wall, const Vec3& offset, const Vec3& velocity) {
+  walls_[wall].offset = offset;
+  walls_[wall].velocity = velocity;
+}
+
+Vec3 ReflectingSurface::pushed_out(Vec3 p, double distance) const {
+  constexpr int most_pushes = 4;  // one for each wall of a corner, and one more
+  for (int push = 0; push < most_pushes; ++push) {
+    double depth = unbounded;
+    const Wall* wall = nearest(p, depth);
+    if (!wall || !(depth < distance)) break;
+    p += (distance - depth) * wall->normal(p);
+  }
+  return p;
 }
 
 const ReflectingSurface::Wall* ReflectingSurface::nearest(const Vec3& p, double& depth) const {
@@ -121,7 +144,7 @@ std::optional<ReflectingSurface::Contact> ReflectingSurface::first_contact(const
   std::optional<Contact> first;
   for (const Wall& wall : walls_) {
     if (wall.clear(from, to)) continue;
-    const auto crossing = wall.shape->first_crossing(from, to, wall.fluid);
+    const auto crossing = wall.first_crossing(from, to);
     if (crossing && (!first || crossing->fraction < first->at.fraction)) first = Contact{&wall, *crossing};
   }
   return first;
@@ -156,7 +179,7 @@ Reflection ReflectingSurface::reflect(const Vec3& from, const Vec3& to, const Ve
     const double back = 1 + contact->wall->restitution;
     Vec3 rest = b - point;
     rest -= back * std::min(0.0, dot(rest, n)) * n;
-    result.velocity -= back * std::min(0.0, dot(result.velocity, n)) * n;
+    result.velocity -= back * std::min(0.0, dot(result.velocity - contact->wall->velocity, n)) * n;
     result.travelled += norm(point - a);
     const auto next = settled(point + inset * n, inset);
     b = next ? *next + rest : a;

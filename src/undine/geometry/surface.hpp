@@ -19,20 +19,25 @@ struct Reflection {
 };
 
 /// Walls off which a point bounces like light off a mirror: any number of tanks, obstacles, planes and meshes.
-/// The fluid is where all of them allow it. Threads may share it once it is built.
+/// The fluid is where all of them allow it. Threads may share it while nobody places its walls.
 class ReflectingSurface {
  public:
   static constexpr int most_hits = 16;
 
   /// The fluid stays inside the box (m; axes beyond `dimensions` are unbounded). Through an `open` face it may leave;
   /// the walls beside it then go on without end. Restitution is the share of the normal speed kept, 0..1.
-  void add_tank(const Bounds& box, int dimensions, const FaceSet& open = {}, double restitution = 1);
+  /// Like the others that add, it returns the wall's number.
+  std::size_t add_tank(const Bounds& box, int dimensions, const FaceSet& open = {}, double restitution = 1);
 
   /// The fluid stays on one side of any shape: outside of an obstacle, inside of a vessel.
-  void add(ShapePtr shape, Side fluid, double restitution = 1);
+  std::size_t add(ShapePtr shape, Side fluid, double restitution = 1);
 
   /// The fluid stays on the side of the plane that the normal points to.
-  void add_plane(const Vec3& point, const Vec3& normal_to_fluid, double restitution = 1);
+  std::size_t add_plane(const Vec3& point, const Vec3& normal_to_fluid, double restitution = 1);
+
+  /// Puts a wall `offset` (m) from where it was added, moving at `velocity` (m/s): paths are mirrored at it there, and
+  /// velocities in its frame.
+  void place(std::size_t wall, const Vec3& offset, const Vec3& velocity);
 
   /// True only if the step surely meets no wall. A few nanoseconds for tanks and for obstacles far away.
   bool clear(const Vec3& from, const Vec3& to) const {
@@ -50,6 +55,14 @@ class ReflectingSurface {
   /// How far p is on the fluid's side of the nearest wall, in metres; negative inside a wall.
   double depth(const Vec3& p) const;
 
+  /// How far p is on the fluid's side of one wall, and the unit normal there, towards the fluid.
+  double depth(std::size_t wall, const Vec3& p) const { return walls_[wall].depth(p); }
+  Vec3 normal(std::size_t wall, const Vec3& p) const { return walls_[wall].normal(p); }
+
+  /// The nearest place on the way out along the normals that is at least `distance` (m) from every wall; in a corner
+  /// too narrow for that, where a few pushes by one wall after the other end.
+  Vec3 pushed_out(Vec3 p, double distance) const;
+
   bool empty() const { return walls_.empty(); }
 
  private:
@@ -59,14 +72,17 @@ class ReflectingSurface {
     double restitution;
     Bounds bounds;
     bool tank;  ///< a box with the fluid inside
+    Vec3 offset{}, velocity{};
 
-    bool clear(const Vec3& from, const Vec3& to) const {
+    bool clear(const Vec3& start, const Vec3& end) const {
+      const Vec3 from = start - offset, to = end - offset;
       if (tank) return bounds.holds(from) && bounds.holds(to);
       if (fluid == Side::outside && bounds.clear_of(from, to)) return true;
       return shape->clear(from, to, fluid);
     }
     double depth(const Vec3& p) const;
     Vec3 normal(const Vec3& p) const;  ///< towards the fluid
+    std::optional<Crossing> first_crossing(const Vec3& from, const Vec3& to) const;
   };
   struct Contact;
 

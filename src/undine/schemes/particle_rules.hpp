@@ -64,6 +64,20 @@ struct AnswerExtrapolatedPressure {
   }
 };
 
+/// v_w = 2 v_wall - <v> of the fluid around. Adami et al. (2012), eq. 23.
+struct AnswerFrictionVelocity {
+  using reads = Fields<v, slip_sum, w_sum>;
+  using writes = Fields<v_friction>;
+  auto operator()(const auto& a, int) const { return writes::row(a.w_sum > 1e-6 ? a.v - a.slip_sum / a.w_sum : a.v); }
+};
+
+/// Fluid meets friction at walls with its own velocity.
+struct TakeOwnVelocity {
+  using reads = Fields<v>;
+  using writes = Fields<v_friction>;
+  auto operator()(const auto& a, int) const { return writes::row(a.v); }
+};
+
 /// h = h_0 (rho_0/rho)^(1/N). Niedoba (2012), eq. 2.67.
 template <int N>
 struct FollowDensity {

@@ -74,7 +74,18 @@ class WeaklyCompressible {
   void make_plan();
   void add_density_stages();
   void add_wall_stages();
+  void add_inertia_stage();
+  void add_mirror_stage();
+  void add_push_stages();
   void add_strain_stage();
+  void move_walls();
+  void push_from_walls(double dt);
+  /// Whether walls hold the fluid by a friction of their own.
+  bool holds() const { return options_.wall_no_slip && options_.viscosity; }
+  /// Whether walls accelerate fluid through `acc_wall`.
+  bool pushes() const { return options_.repulsion || holds(); }
+  template <class Self, class F>
+  static void for_each_booked_power(Self& self, F&& f);
   template <class Sweep>
   void add_sweep(Sweep& sweep, bool from_walls);
   template <class Update>
@@ -105,6 +116,7 @@ class WeaklyCompressible {
   double support_now_ = 0;
   double body_power_ = 0;  ///< of the imposed force at the last evaluation, W
   double time_ = 0, time_start_ = 0;
+  double step_end_ = 0;  ///< when the last step ended, s
   Vec<N> potential_origin_{};
   Energies::Ledger ledger_, ledger_start_;
   double strain_power_ = 0, strain_dissipated_ = 0;
@@ -118,6 +130,9 @@ class WeaklyCompressible {
   typename Sweeps::Shepard shepard_{"shepard sum", Group::fluid};
   typename Sweeps::Summation wall_summation_{"wall summation", Group::wall};
   typename Sweeps::WallPressure wall_pressure_{"wall pressure", Group::wall};
+  typename Sweeps::WallAnswer wall_answer_{"wall answer sums", Group::wall};
+  typename Sweeps::WallPush push_{"wall push", Group::fluid, Booking::on};
+  typename Sweeps::WallPush pushed_back_{"push on walls", Group::wall};
   typename Sweeps::Gradient gradient_{"density gradient", Group::fluid};
   typename Sweeps::Strain strain_{"velocity gradient", Group::fluid};
   typename Sweeps::WallForce wall_force_{"wall force", Group::wall};

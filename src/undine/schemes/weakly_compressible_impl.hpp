@@ -24,6 +24,7 @@ WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domai
   configure();
   make_plan();
   if (memory.empty()) {
+    move_walls();
     evaluate();
   } else {
     recall(memory);
@@ -49,7 +50,8 @@ void WeaklyCompressible<N>::configure() {
   force_.template use<Sweeps::diffusion>() = {chosen(options_.diffusion), diffuses(), {true, false}, {}};
   force_.template use<Sweeps::xsph>() = {chosen(options_.xsph), options_.xsph.has_value(), {true, false}, {}};
   force_.template use<Sweeps::viscosity>() = {
-      chosen(options_.viscosity), options_.viscosity.has_value(), {true, friction}, {}};
+      chosen(options_.viscosity), options_.viscosity.has_value(), {true, friction && !holds()}, {}};
+  force_.take_from({true, walls});  // wall particles that only repel are none of its neighbours
   continuity_.template use<0>() = {continuity, true, {true, walls}, {}};
   wall_continuity_.template use<0>() = {continuity, true, {true, false}, {}};
   summation_.template use<0>() = {{}, true, {true, walls}, {}};
@@ -62,8 +64,19 @@ void WeaklyCompressible<N>::configure() {
   auto& extrapolation = wall_pressure_.template use<0>().term;
   for (int k = 0; k < N; ++k) extrapolation.gravity[k] = fourtakas.gravity[k] = options_.gravity[k];
 
+  terms::Repulsion repulsion = options_.repulsion.value_or(terms::Repulsion{});
+  OneOf<terms::NoSlipForms> no_slip;
+  if (holds()) no_slip.choose(options_.viscosity->index());
+  wall_answer_.template use<0>() = {{}, holds(), {true, false}, {}};
+  wall_answer_.template use<1>() = {{}, options_.walls.moves(), {true, false}, {}};
+  push_.template use<0>() = {repulsion, options_.repulsion.has_value(), {false, true}, {}};
+  push_.template use<1>() = {no_slip, holds(), {false, true}, {}};
+  pushed_back_.template use<0>() = {repulsion, options_.repulsion.has_value(), {true, false}, {}};
+  pushed_back_.template use<1>() = {no_slip, holds(), {true, false}, {}};
+
   wall_force_.template use<0>() = {options_.pressure, true, {true, false}, {}};
-  wall_force_.template use<1>() = {chosen(options_.viscosity), options_.viscosity && friction, {true, false}, {}};
+  wall_force_.template use<1>() = {
+      chosen(options_.viscosity), options_.viscosity && friction && !holds(), {true, false}, {}};
   wall_force_.template use<2>() = {chosen(options_.artificial), options_.artificial && friction, {true, false}, {}};
 }
 
@@ -82,15 +95,20 @@ void WeaklyCompressible<N>::make_plan() {
     add_update("renormalised gradient", Group::fluid, rules::RenormaliseGradient<N>{});
   }
   add_sweep(force_, walls);
+  if (pushes()) add_push_stages();
   if (options_.strain_dissipation) add_strain_stage();
-  if (norm_sq(options_.gravity) > 0 || options_.body_force) {
+  if (norm_sq(options_.gravity) > 0 || options_.body_force || pushes()) {
     const Resources changed(Group::fluid, Fields<acc>::set());
-    plan_.add({"body force", Resources(changed).add(Group::fluid, Fields<x, v, m>::set()), changed, [this] {
+    Resources reads = Resources(changed).add(Group::fluid, Fields<x, v, m>::set());
+    if (pushes()) reads.add(Group::fluid, Fields<acc_wall>::set());
+    plan_.add({"body force", reads, changed, [this] {
                  auto a = store_.template get<acc>();
                  const auto at = store_.template get<x>();
                  const auto u = store_.template get<v>();
                  const auto mass = store_.template get<m>();
+                 const auto push = store_.template get<acc_wall>();
                  body_power_ = total_over(store_, Group::fluid, [&](std::size_t i) {
+                   if (!push.empty()) a[i] += push[i];
                    a[i] += options_.gravity;
                    if (!options_.body_force) return 0.0;
                    const Vec<N> imposed = options_.body_force(at[i], time_);
@@ -136,22 +154,6 @@ void WeaklyCompressible<N>::add_density_stages() {
                run(shepard_);
                update(store_, Group::fluid, rules::TakeNormalisedDensity{});
              }});
-}
-
-template <int N>
-void WeaklyCompressible<N>::add_wall_stages() {
-  if (options_.wall_density == WallDensity::extrapolated) {
-    add_sweep(wall_pressure_, false);
-    add_update("wall answer", Group::wall, rules::AnswerExtrapolatedPressure{options_.materials, options_.wall_pulls});
-    return;
-  }
-  if (options_.wall_density == WallDensity::modified) {
-    add_sweep(wall_summation_, false);
-    add_update("wall density", Group::wall, rules::AnswerModifiedDensity{});
-  } else {
-    add_sweep(wall_continuity_, false);
-  }
-  add_update("wall equation of state", Group::wall, rules::ApplyEquationOfState{options_.materials});
 }
 
 /// Dissipation by the velocity gradient L: 2 mu D:D per volume, D = (L + L^T)/2. Saalfeld (2012), eq. 51-54 (with the
@@ -286,6 +288,9 @@ void WeaklyCompressible<N>::drift(double dt) {
       return *this;
     }
   };
+  if (options_.reflector || options_.pushed_out)
+    for (const auto& motion : options_.walls.motions)
+      if (motion.place_surface) motion.place_surface(motion.state(time_ + dt));
   const Work work = total_over(store_, Group::fluid, [&](std::size_t i) {
     const Vec<N> from = at[i];
     const Vec<N> moved = moves ? correction[i] : Vec<N>{};
@@ -303,6 +308,7 @@ void WeaklyCompressible<N>::drift(double dt) {
   ledger_.xsph += work.xsph;
   ledger_.walls += work.walls;
   time_ += dt;
+  move_walls();
 }
 
 template <int N>
@@ -352,9 +358,12 @@ void WeaklyCompressible<N>::correct_kick(double dt) {
   for_each_particle(store_, Group::fluid, [&](std::size_t i) { u[i] += dt * (a[i] - old[i]); });
 }
 
-/// XSPH on the velocity itself: what it takes from the kinetic energy is booked exactly.
+/// What acts once a step: pushes of surfaces, and XSPH on the velocity itself. What it takes from the kinetic energy is
+/// booked exactly.
 template <int N>
 void WeaklyCompressible<N>::smooth() {
+  if (options_.pushed_out) push_from_walls(time_ - step_end_);
+  step_end_ = time_;
   if (!options_.xsph || options_.xsph_target != XsphTarget::velocity) return;
   auto u = store_.template get<v>();
   const auto correction = store_.template get<v_xsph>();
@@ -398,6 +407,7 @@ void WeaklyCompressible<N>::book(double dt) {
   ledger_.diffusion -= dt * diffusion[fluid];
   ledger_.exchange -= dt * (pressure[fluid] + compression[fluid]);
   ledger_.walls -= dt * (pressure[wall] + compression[wall] + viscous[wall] + artificial[wall]);
+  if (pushes()) ledger_.walls -= dt * (push_.template use<0>().power[wall] + push_.template use<1>().power[wall]);
   ledger_.body -= dt * body_power_;
   strain_dissipated_ += dt * strain_power_;
 }
@@ -449,8 +459,11 @@ Energies WeaklyCompressible<N>::energies() const {
 }
 
 template <int N>
-void WeaklyCompressible<N>::evaluate_wall_forces() {
-  if (options_.wall_density != WallDensity::none) run(wall_force_);
+template <class Self, class F>
+void WeaklyCompressible<N>::for_each_booked_power(Self& self, F&& f) {
+  const auto each = [&](auto&... use) { (f(use.power), ...); };
+  std::apply(each, self.force_.uses());
+  if (self.pushes()) std::apply(each, self.push_.uses());
 }
 
 template <int N>
@@ -458,8 +471,7 @@ std::vector<double> WeaklyCompressible<N>::memory() const {
   std::vector<double> numbers{time_, neighbours_.support(), body_power_, strain_power_, strain_dissipated_};
   const auto& l = ledger_;
   numbers.insert(numbers.end(), {l.viscous, l.artificial, l.diffusion, l.exchange, l.walls, l.xsph, l.body});
-  std::apply([&](const auto&... use) { (numbers.insert(numbers.end(), use.power.begin(), use.power.end()), ...); },
-             force_.uses());
+  for_each_booked_power(*this, [&](const Power& power) { numbers.insert(numbers.end(), power.begin(), power.end()); });
   return numbers;
 }
 
@@ -474,15 +486,13 @@ void WeaklyCompressible<N>::recall(const std::vector<double>& numbers) {
   auto& l = ledger_;
   for (double* account : {&l.viscous, &l.artificial, &l.diffusion, &l.exchange, &l.walls, &l.xsph, &l.body})
     *account = *next++;
-  std::apply(
-      [&](auto&... use) {
-        const auto read = [&](Power& power) {
-          for (double& number : power) number = *next++;
-        };
-        (read(use.power), ...);
-      },
-      force_.uses());
+  for_each_booked_power(*this, [&](Power& power) {
+    for (double& number : power) number = *next++;
+  });
+  step_end_ = time_;
   support_now_ = largest_support();
 }
 
 }  // namespace undine
+
+#include "undine/schemes/weakly_compressible_walls_impl.hpp"

@@ -10,6 +10,7 @@
 #include "undine/engine/smoothing.hpp"
 #include "undine/kernels/kernel.hpp"
 #include "undine/materials/catalogue.hpp"
+#include "undine/schemes/wall_motion.hpp"
 #include "undine/terms/catalogue.hpp"
 #include "undine/walls/catalogue.hpp"
 
@@ -56,7 +57,12 @@ struct WeaklyCompressibleOptions {
   walls::WallDensity wall_density = walls::WallDensity::none;
   bool wall_pulls = false;  ///< whether evolved wall particles may fall below rho_0, and then pull on fluid that leaves
   bool wall_friction = true;  ///< whether viscosities act between fluid and walls
+  bool wall_no_slip = false;  ///< whether viscosities hold the fluid at the walls' surface, not only drag on it
   Reflector<N> reflector;     ///< empty: no elastic walls
+  WallPlan<N> walls;
+  std::optional<terms::Repulsion> repulsion;  ///< of wall particles, which then do nothing else
+  std::function<Vec<N>(const Vec<N>& x)>
+      pushed_out;  ///< where walls want a particle at x to be; empty: they do not push
 
   std::vector<materials::Material> materials;
   bool strain_dissipation = false;  ///< also measure 2 mu D:D from the velocity gradient, at the cost of a sweep

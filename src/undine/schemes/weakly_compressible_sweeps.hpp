@@ -29,6 +29,9 @@ struct WeaklyCompressibleSweeps {
   using Summation = PairSweep<N, Use<terms::Summation, d>>;
   using Shepard = PairSweep<N, Use<terms::ShepardSum, d>>;
   using WallPressure = PairSweep<N, Use<terms::WallExtrapolation, d>>;
+  using WallAnswer = PairSweep<N, Use<terms::WallSlip, d>, Use<terms::WallMoment, d>>;
+  /// What walls do to fluid, and fluid to walls, apart from pressure and the friction that is in Force.
+  using WallPush = PairSweep<N, Use<terms::Repulsion, d>, Use<OneOf<terms::NoSlipForms>, vi>>;
   using Gradient = PairSweep<N, Use<terms::DensityGradient, d>>;
   using Strain = PairSweep<N, Use<terms::VelocityGradient, d>>;
   using WallForce = PairSweep<N, Use<OneOf<terms::PressureForms>, pr>, Use<OneOf<terms::ViscosityForms>, vi>,

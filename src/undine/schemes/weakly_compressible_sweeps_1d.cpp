@@ -10,6 +10,8 @@ template struct CompiledSweep<Sweeps::Continuity>;
 template struct CompiledSweep<Sweeps::Summation>;
 template struct CompiledSweep<Sweeps::Shepard>;
 template struct CompiledSweep<Sweeps::WallPressure>;
+template struct CompiledSweep<Sweeps::WallAnswer>;
+template struct CompiledSweep<Sweeps::WallPush>;
 template struct CompiledSweep<Sweeps::Gradient>;
 template struct CompiledSweep<Sweeps::Strain>;
 template struct CompiledSweep<Sweeps::WallForce>;

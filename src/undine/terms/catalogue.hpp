@@ -16,6 +16,8 @@
 #include "undine/terms/viscosity/monaghan.hpp"
 #include "undine/terms/viscosity/mueller.hpp"
 #include "undine/terms/wall/extrapolation.hpp"
+#include "undine/terms/wall/no_slip.hpp"
+#include "undine/terms/wall/repulsion.hpp"
 
 namespace undine::terms {
 
@@ -45,6 +47,13 @@ using DiffusionForms = Catalogue<  //
 using ArtificialViscosities = Catalogue<ViscosityMonaghan>;
 using VelocityCorrections = Catalogue<Xsph>;
 using Sums = Catalogue<Summation, ShepardSum>;
-using Measures = Catalogue<DensityGradient, VelocityGradient, ApproachSpeed, WallExtrapolation>;
+using Measures = Catalogue<DensityGradient, VelocityGradient, ApproachSpeed, WallExtrapolation, WallSlip, WallMoment>;
+using WallForces = Catalogue<Repulsion>;
+
+/// The viscosities as no-slip walls exert them, in the order of ViscosityForms.
+using NoSlipForms = Catalogue<  //
+    NoSlip<ViscosityMorris>,    //
+    NoSlip<ViscosityLaminar>,   //
+    NoSlip<ViscosityMueller>>;
 
 }  // namespace undine::terms

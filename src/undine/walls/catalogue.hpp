@@ -1,9 +1,12 @@
 #pragma once
 #include "undine/walls/adami.hpp"
 #include "undine/walls/combined.hpp"
+#include "undine/walls/distance.hpp"
 #include "undine/walls/elastic.hpp"
+#include "undine/walls/mdbc.hpp"
 #include "undine/walls/modified_density.hpp"
 #include "undine/walls/none.hpp"
+#include "undine/walls/repulsive.hpp"
 #include "undine/walls/wall_particles.hpp"
 
 namespace undine::walls {
@@ -12,9 +15,12 @@ namespace undine::walls {
 using Walls = Catalogue<  //
     Combined,             //
     Adami,                //
+    Mdbc,                 //
     WallParticles,        //
     ModifiedDensity,      //
     Elastic,              //
+    Distance,             //
+    Repulsive,            //
     None>;
 
 }  // namespace undine::walls

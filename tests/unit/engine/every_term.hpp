@@ -13,8 +13,8 @@ using LoneTerms = terms::Measures;
 
 template <class List>
 struct EveryTermOf;
-template <class... Sum, class... Lone>
-struct EveryTermOf<std::tuple<Catalogue<Sum...>, Catalogue<Lone...>>> {
+template <class... Sum, class... Lone, class... Force>
+struct EveryTermOf<std::tuple<Catalogue<Sum...>, Catalogue<Lone...>, Catalogue<Force...>>> {
   template <int N>
   using Sweep = PairSweep<N, Use<OneOf<terms::PressureForms>, KernelRole::pressure>,        //
                           Use<OneOf<terms::ContinuityForms>, KernelRole::pressure>,         //
@@ -22,12 +22,13 @@ struct EveryTermOf<std::tuple<Catalogue<Sum...>, Catalogue<Lone...>>> {
                           Use<OneOf<terms::ArtificialViscosities>, KernelRole::viscosity>,  //
                           Use<OneOf<terms::DiffusionForms>>,                                //
                           Use<OneOf<terms::VelocityCorrections>>,                           //
-                          Use<Sum>..., Use<Lone>...>;
+                          Use<OneOf<terms::NoSlipForms>, KernelRole::viscosity>,            //
+                          Use<Sum>..., Use<Lone>..., Use<Force>...>;
 };
 
 /// One sweep that holds every term of terms/catalogue.hpp, to be used one at a time.
 template <int N>
-using EveryTerm = EveryTermOf<std::tuple<terms::Sums, LoneTerms>>::Sweep<N>;
+using EveryTerm = EveryTermOf<std::tuple<terms::Sums, LoneTerms, terms::WallForces>>::Sweep<N>;
 
 /// Calls f(Term{}) for every term.
 template <class F>
@@ -40,6 +41,8 @@ void for_each_term(F&& f) {
   terms::VelocityCorrections::for_each(f);
   terms::Sums::for_each(f);
   LoneTerms::for_each(f);
+  terms::WallForces::for_each(f);
+  terms::NoSlipForms::for_each(f);
 }
 
 template <class Term, class Entry>

@@ -237,6 +237,8 @@ TEST(Sweep, BooksThePowerOfWhatItAdds) {
       double one = 0;
       if constexpr (Term::adds::template has<field::acc>)
         one = m * dot(store.get<field::v>()[i], store.get<field::acc>()[i]);
+      if constexpr (Term::adds::template has<field::acc_wall>)
+        one = m * dot(store.get<field::v>()[i], store.get<field::acc_wall>()[i]);
       if constexpr (Term::adds::template has<field::drho>) one = m * p / sq(rho) * store.get<field::drho>()[i];
       if constexpr (Term::adds::template has<field::drho_diff>)
         one = m * p / sq(rho) * store.get<field::drho_diff>()[i];

@@ -211,5 +211,44 @@ TEST(GeometrySurface, RefusesNonsense) {
   EXPECT_NE(sample::error_of([&] { walls.add_plane({}, {{1}}, 1.5); }).find("restitution"), std::string::npos);
 }
 
+// Criterion: a wall that was placed mirrors as one that was built there, to 1e-12, in its own frame of velocity.
+RC_GTEST_PROP(GeometrySurface, PlacedWallsMirrorWhereTheyAre, ()) {
+  const Vec3 offset = sample::point(-1, 1), speed = sample::point(-2, 2);
+  ReflectingSurface here = all_walls()[0].walls, there;
+  here.place(0, offset, speed);
+  there.add_tank({offset + unit_box.lo, offset + unit_box.hi}, 3);
+  const Vec3 from = offset + sample::point(0, 1), step = sample::point(-2, 2);
+  RC_PRE(there.depth(from) > 1e-9);
+  const auto a = here.reflect(from, from + step, step + speed), b = there.reflect(from, from + step, step);
+  RC_ASSERT(norm(a.position - b.position) <= 1e-11);
+  RC_ASSERT(norm(a.velocity - speed - b.velocity) <= 1e-11);
+  RC_ASSERT(here.clear(from, from + step) == there.clear(from, from + step));
+  RC_ASSERT(std::abs(here.depth(from) - there.depth(from)) <= 1e-12);
+}
+
+// Criterion: a particle at rest that a wall runs over is thrown ahead with twice the wall's speed, as far ahead of the
+// wall as it was behind.
+TEST(GeometrySurface, AMovingWallThrowsWhatItOvertakes) {
+  ReflectingSurface walls;
+  walls.add_tank(unit_box, 3);
+  walls.place(0, {{0.1, 0, 0}}, {{5, 0, 0}});
+  const Vec3 at{{0.04, 0.5, 0.5}};
+  const auto r = walls.reflect(at, at, {});
+  EXPECT_NEAR(r.position[0], 0.16, 1e-9);
+  EXPECT_NEAR(r.position[1], 0.5, 1e-12);
+  EXPECT_NEAR(r.velocity[0], 10, 1e-12);
+  EXPECT_EQ(r.velocity[1], 0);
+}
+
+// Criterion: pushed out of the corner of a box by both walls, to 1e-12; untouched where far from walls.
+TEST(GeometrySurface, PushesOutToADistance) {
+  ReflectingSurface walls;
+  walls.add_tank(unit_box, 3);
+  const Vec3 corner = walls.pushed_out({{0.1, 0.05, 0.5}}, 0.2);
+  EXPECT_NEAR(norm(corner - Vec3{{0.2, 0.2, 0.5}}), 0, 1e-12);
+  EXPECT_NEAR(norm(walls.pushed_out({{-0.1, 0.5, 0.5}}, 0.2) - Vec3{{0.2, 0.5, 0.5}}), 0, 1e-12);
+  EXPECT_EQ(norm(walls.pushed_out({{0.3, 0.4, 0.5}}, 0.2) - Vec3{{0.3, 0.4, 0.5}}), 0);
+}
+
 }  // namespace
 }  // namespace undine

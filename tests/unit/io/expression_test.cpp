@@ -114,6 +114,66 @@ TEST(Expression, SaysWhereItIsWrong) {
   EXPECT_NE(message("1", {{"x", 1.0}}).find("hides"), std::string::npos);
 }
 
+// Criterion: derivatives in t within 1e-8 (first) and 1e-5 (second) of central differences, for every function; values
+// to the bit.
+TEST(Expression, KnowsItsRates) {
+  const std::vector<const char*> samples{"3",
+                                         "x + y",
+                                         "t",
+                                         "2 - 3 * t",
+                                         "0.1 * t * t - t ^ 3",
+                                         "-sin(2 * t)",
+                                         "0.2 * cos(pi * t) * exp(-t / 3)",
+                                         "tan(t / 9)",
+                                         "asin(t / 9)",
+                                         "acos(t / 9)",
+                                         "atan(t - 6)",
+                                         "sinh(t / 4)",
+                                         "cosh(t / 4)",
+                                         "tanh(t - 7.5)",
+                                         "sqrt(t)",
+                                         "log(t)",
+                                         "ln(1 + t * t)",
+                                         "log10(t)",
+                                         "abs(2 - t)",
+                                         "t ^ 0",
+                                         "t ^ 1",
+                                         "t ^ -1.5",
+                                         "2 ^ t",
+                                         "t ^ t",
+                                         "pow(t, 0.5)",
+                                         "x / t + t / (1 + t * t)",
+                                         "atan2(t, 2 - t)",
+                                         "atan2(sin(t), cos(t))",
+                                         "mod(t * t, 4)",
+                                         "min(t, 3 * t, 8)",
+                                         "max(t * t, t)",
+                                         "clamp(t, 0, 20)",
+                                         "clamp(t, 8, 9)",
+                                         "if(t > 5, t ^ 2, 0)",
+                                         "if(t < 5, t ^ 2, sin(t))",
+                                         "step(t - 5) * t",
+                                         "sign(t) * t ^ 2",
+                                         "floor(t) + t",
+                                         "ceil(t) * t",
+                                         "(t >= 5) * t"};
+  const double t = 7.3, small = 1e-3;
+  for (const auto* source : samples) {
+    const auto f = Expression::parse(source);
+    const auto at = [&](double moment) { return f(2, 3, 5, moment); };
+    const auto rates = f.rates(2, 3, 5, t);
+    EXPECT_EQ(rates.value, at(t)) << source;
+    // Fourth order, so that what is compared is not the error of the difference.
+    const double first = (8 * (at(t + small) - at(t - small)) - (at(t + 2 * small) - at(t - 2 * small))) / (12 * small);
+    const double second =
+        (16 * (at(t + small) + at(t - small)) - (at(t + 2 * small) + at(t - 2 * small)) - 30 * at(t)) /
+        (12 * small * small);
+    const double scale = 1 + std::abs(at(t));
+    EXPECT_NEAR(rates.first, first, 1e-8 * scale * (1 + std::abs(first))) << source;
+    EXPECT_NEAR(rates.second, second, 1e-5 * scale * (1 + std::abs(second))) << source;
+  }
+}
+
 std::string repeated(const std::string& part, int count) {
   std::string all;
   for (int k = 0; k < count; ++k) all += part;

@@ -99,6 +99,7 @@ Term example() {
   Term term{};
   if constexpr (requires { term.beta; }) term.beta = 2;
   if constexpr (requires { term.gravity; }) term.gravity = {{0, -9.81, 0}};
+  if constexpr (requires { term.r_0; }) term.r_0 = 0.015;
   return term;
 }
 
@@ -179,7 +180,7 @@ TEST(Terms, TurnWithTheirVectors) {
   const auto turn = [&]<class F>(F) {
     for (auto& value : askew.store.get<F>()) value = turned(value);
   };
-  Fields<x, v, grad_rho_l>::for_each(turn);
+  Fields<x, v, v_friction, grad_rho_l>::for_each(turn);
   Bench<2> a(straight), b(askew);
   test::for_each_term([&]<class Term>(Term) {
     auto term = example<Term>();

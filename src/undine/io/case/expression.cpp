@@ -14,18 +14,9 @@
 
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
+#include "undine/io/case/expression_code.hpp"
 
 namespace undine {
-
-// clang-format off
-enum class Expression::Code : std::uint8_t {
-  constant, x, y, z, t,
-  negate, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, sqrt, exp, log, log10, abs, sign, floor, ceil, step,
-  add, subtract, multiply, divide, power, less, less_equal, greater, greater_equal, equal, not_equal, atan2, mod,
-  min, max, choose, clamp
-};
-// clang-format on
-
 namespace {
 
 using Code = Expression::Code;
@@ -52,12 +43,6 @@ constexpr std::array<Function, 26> functions{{
 }};
 // clang-format on
 
-int arity(Code code) {
-  if (code <= Code::t) return 0;
-  if (code < Code::add) return 1;
-  return code < Code::choose ? 2 : 3;
-}
-
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double number(bool truth) { return truth ? 1.0 : 0.0; }
@@ -67,8 +52,10 @@ double sign(double a) { return a > 0 ? 1.0 : a < 0 ? -1.0 : a; }
 double step(double a) { return a < 0 ? 0.0 : a >= 0 ? 1.0 : a; }
 double modulo(double a, double b) { return a - b * std::floor(a / b); }
 
+}  // namespace
+
 // clang-format off
-double apply(Code code, const double* v) {
+double value_of(Expression::Code code, const double* v) {
   const double a = v[0];
   switch (code) {
     case Code::negate: return -a;
@@ -111,6 +98,8 @@ double apply(Code code, const double* v) {
   }
 }
 // clang-format on
+
+namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -189,7 +178,7 @@ class Compiler {
       std::array<double, 3> values{};
       for (std::size_t k = 0; k < count; ++k) values[k] = arguments[k].value;
       program_.resize(program_.size() - count);
-      value = apply(code, values.data());
+      value = value_of(code, values.data());
       code = Code::constant;
     }
     program_.push_back({code, value});
@@ -391,7 +380,7 @@ double Expression::operator()(double x, double y, double z, double t) const {
         break;
       default:
         top -= arity(code);
-        *top = apply(code, top);
+        *top = value_of(code, top);
         ++top;
     }
   }

@@ -34,6 +34,14 @@ class Expression {
 
   double operator()(double x, double y, double z, double t) const;
 
+  /// A value with its first and second derivative with respect to time.
+  struct Rates {
+    double value = 0, first = 0, second = 0;
+  };
+  /// The derivatives are those of the formula as it stands, exact to rounding. Where it has a kink or a jump (abs, min,
+  /// max, clamp, if, step, comparisons, sign, floor, ceil, mod) they are those of the branch that is taken.
+  Rates rates(double x, double y, double z, double t) const;
+
   bool is_constant() const { return !uses_position_ && !uses_time_; }
   bool uses_position() const { return uses_position_; }
   bool uses_time() const { return uses_time_; }

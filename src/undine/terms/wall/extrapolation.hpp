@@ -23,4 +23,15 @@ struct WallExtrapolation {
   }
 };
 
+/// What an accelerated wall adds to the extrapolated pressure: - a_w . s_w / sum_f V_f W_wf.
+struct WallMoment {
+  static constexpr Info info{"wall_moment", "Where the fluid around a wall particle lies, for walls that accelerate",
+                             "s_w = sum_f m_f (x_w - x_f) W_wf", "Adami et al. (2012), eq. 27"};
+  using reads = Fields<m>;
+  using target_reads = Fields<>;
+  using adds = Fields<dx_sum>;
+
+  constexpr auto operator()(const auto&, const auto& b, const auto& ab) const { return adds::row(b.m * ab.w * ab.dx); }
+};
+
 }  // namespace undine::terms

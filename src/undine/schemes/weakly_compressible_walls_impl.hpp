@@ -1,0 +1,124 @@
+#pragma once
+// What WeaklyCompressible<N> does at walls; included by weakly_compressible_impl.hpp alone.
+#include "undine/engine/corrected_interpolation.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
+
+namespace undine {
+
+template <int N>
+void WeaklyCompressible<N>::add_wall_stages() {
+  if (options_.wall_density == WallDensity::extrapolated) {
+    add_sweep(wall_pressure_, false);
+    if (holds() || options_.walls.moves()) add_sweep(wall_answer_, false);
+    if (options_.walls.moves()) add_inertia_stage();
+    add_update("wall answer", Group::wall, rules::AnswerExtrapolatedPressure{options_.materials, options_.wall_pulls});
+    if (holds()) add_update("wall friction velocity", Group::wall, rules::AnswerFrictionVelocity{});
+    return;
+  }
+  if (options_.wall_density == WallDensity::mirrored) {
+    add_mirror_stage();
+  } else if (options_.wall_density == WallDensity::modified) {
+    add_sweep(wall_summation_, false);
+    add_update("wall density", Group::wall, rules::AnswerModifiedDensity{});
+  } else {
+    add_sweep(wall_continuity_, false);
+  }
+  add_update("wall equation of state", Group::wall, rules::ApplyEquationOfState{options_.materials});
+}
+
+/// In the frame of an accelerated wall gravity is g - a_w: Adami et al. (2012), eq. 27.
+template <int N>
+void WeaklyCompressible<N>::add_inertia_stage() {
+  const Resources changed(Group::wall, Fields<p_sum>::set());
+  plan_.add({"wall inertia", Resources(changed).add(Group::wall, Fields<dx_sum>::set()), changed, [this] {
+               const auto& walls = options_.walls;
+               std::vector<Vec<N>> acceleration;
+               for (const auto& motion : walls.motions) acceleration.push_back(motion.state(time_).acceleration);
+               auto pressure = store_.template get<p_sum>();
+               const auto moment = store_.template get<dx_sum>();
+               for_each_particle(store_, Group::wall, [&](std::size_t i) {
+                 const auto motion = walls.motion[static_cast<std::size_t>(store_.ids()[i] - walls.first_id)];
+                 if (motion >= 0) pressure[i] -= dot(acceleration[static_cast<std::size_t>(motion)], moment[i]);
+               });
+             }});
+}
+
+/// rho_w = rho_g + (x_w - x_g).grad rho_g from the fluid at the mirror image x_g; rho_0 where no fluid is near. English
+/// et al. (2022), eq. 10-15. A wall to which fluid sticks has v_w = 2 v_wall - v_g.
+template <int N>
+void WeaklyCompressible<N>::add_mirror_stage() {
+  Resources reads(Group::fluid, Fields<m, rho, v>::set() | place());
+  reads.add(Group::wall, Fields<x, v, rho_0>::set());
+  Resources writes(Group::wall, Fields<rho>::set());
+  if (holds()) writes.add(Group::wall, Fields<v_friction>::set());
+  plan_.add({"wall mirror", reads, writes, [this] {
+               const SweepContext<N> run = context();
+               const InterpolationSource<N> source{store_, neighbours_, domain_, run.kernels[0], run.support};
+               const auto& walls = options_.walls;
+               const auto at = store_.template get<x>();
+               const auto own = store_.template get<v>();
+               const auto rest = store_.template get<rho_0>();
+               auto density = store_.template get<rho>();
+               auto friction = store_.template get<v_friction>();
+               for_each_particle(store_, Group::wall, [&](std::size_t i) {
+                 const Vec<N>& to_mirror = walls.to_mirror[static_cast<std::size_t>(store_.ids()[i] - walls.first_id)];
+                 const CorrectedFluid<N> fluid = interpolate_corrected(source, at[i] + to_mirror);
+                 density[i] = fluid.weight > 0 ? fluid.rho - dot(to_mirror, fluid.grad_rho) : rest[i];
+                 if (!options_.wall_pulls) density[i] = std::max(density[i], rest[i]);
+                 if (!friction.empty()) friction[i] = fluid.weight > 0 ? 2.0 * own[i] - fluid.v : own[i];
+               });
+             }});
+}
+
+/// Forces of walls that are not the answer to pressure.
+template <int N>
+void WeaklyCompressible<N>::add_push_stages() {
+  if (holds()) add_update("fluid friction velocity", Group::fluid, rules::TakeOwnVelocity{});
+  add_sweep(push_, true);
+}
+
+/// Walls are where their motion has them now.
+template <int N>
+void WeaklyCompressible<N>::move_walls() {
+  const auto& walls = options_.walls;
+  if (!walls.moves()) return;
+  std::vector<typename WallMotion<N>::State> states;
+  for (const auto& motion : walls.motions) states.push_back(motion.state(time_));
+  auto at = store_.template get<x>();
+  auto u = store_.template get<v>();
+  for_each_particle(store_, Group::wall, [&](std::size_t i) {
+    const auto k = static_cast<std::size_t>(store_.ids()[i] - walls.first_id);
+    if (walls.motion[k] < 0) return;
+    const auto which = static_cast<std::size_t>(walls.motion[k]);
+    const Vec<N> place = walls.start[k] + states[which].displacement;
+    at[i] = domain_.wrapped(place);
+    u[i] = states[which].velocity;
+    if (walls.motions[which].slide) u[i] += walls.motions[which].slide(place, time_);
+  });
+}
+
+/// f = (l - r)/dt^2 along the normal, for a whole step: v changes by (l - r)/dt. Saalfeld (2012), eq. 58.
+template <int N>
+void WeaklyCompressible<N>::push_from_walls(double dt) {
+  auto u = store_.template get<v>();
+  const auto at = store_.template get<x>();
+  const auto mass = store_.template get<m>();
+  ledger_.walls += total_over(store_, Group::fluid, [&](std::size_t i) {
+    const Vec<N> old = u[i];
+    u[i] += (options_.pushed_out(at[i]) - at[i]) / dt;
+    return 0.5 * mass[i] * (norm_sq(old) - norm_sq(u[i]));
+  });
+}
+
+template <int N>
+void WeaklyCompressible<N>::evaluate_wall_forces() {
+  const bool answers = options_.wall_density != WallDensity::none;
+  if (answers) run(wall_force_);
+  if (!pushes()) return;
+  run(pushed_back_);
+  auto a = store_.template get<acc>();
+  const auto push = store_.template get<acc_wall>();
+  for_each_particle(store_, Group::wall, [&](std::size_t i) { a[i] = answers ? a[i] + push[i] : push[i]; });
+}
+
+}  // namespace undine
