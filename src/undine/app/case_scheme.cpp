@@ -149,8 +149,15 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   walls::Walls::visit(walls::Walls::index_of(treatment), [&]<class W>(W) {
     options.wall_density = W::density;
     choice.reflects = wall.flag("guard", W::reflects || Preset::guard);
+    if constexpr (requires { W::slip; }) choice.ghosts = W::slip;
   });
-  choice.wall_particles = options.wall_density != walls::WallDensity::none;
+  if (choice.ghosts) {
+    options.ghost_hydrostatic = wall.flag("hydrostatic", true);
+    if (!choice.reflects)
+      wall.fail("guard", "walls with ghosts need the guard",
+                "the ghost of a particle behind a wall would lie in the fluid", "leave 'guard' out");
+  }
+  choice.wall_particles = options.wall_density != walls::WallDensity::none && !choice.ghosts;
   options.wall_pulls = wall.flag("pulls", Preset::wall_pulls);
   options.wall_friction = wall.flag("friction", true);
   choice.restitution = wall.in_range("restitution", unit::one, {0, 1}, 1.0);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "undine/app/case_ghosts.hpp"
 #include "undine/app/case_particles.hpp"
 #include "undine/app/case_shapes.hpp"
 #include "undine/core/error.hpp"
@@ -43,6 +44,7 @@ struct Body {
 };
 
 constexpr std::int64_t most_layers = 100;  ///< of a wall
+constexpr int no_body = -1;                ///< number of a wall that has no particles of its own, but ghosts
 
 template <int N>
 class Reader {
@@ -69,6 +71,7 @@ class Reader {
     read_body_force();
     start_walls();
     connect_reflector();
+    connect_ghosts();
     return std::move(setup_);
   }
 
@@ -161,7 +164,7 @@ class Reader {
   }
 
   void read_wall(const Table& table) {
-    Body body{table.text("name", fmt::format("wall{}", bodies_.size())), Group::wall, 0, {}, {}, table};
+    Body body{table.text("name", fmt::format("wall{}", bodies_.size() + ghosts_.size())), Group::wall, 0, {}, {}, table};
     const Table shape_table = table.table("shape");
     const Side fluid_side =
         table.choice("fluid", {"inside", "outside"}, "inside") == "inside" ? Side::inside : Side::outside;
@@ -178,6 +181,15 @@ class Reader {
       } else {
         surface_->add(shape, fluid_side, setup_.choice.restitution);
       }
+    }
+    if (setup_.choice.ghosts) {
+      if (!shape) shape = read_shape(shape_table, N);  // says that it is missing
+      if (!reflects)
+        table.fail("reflects", "walls with ghosts reflect", "a particle behind one would have its ghost in the fluid",
+                   "leave 'reflects' out");
+      ghosts_.add(table, body.name, *shape, fluid_side, open);
+      if (!setup_.bodies.emplace(body.name, no_body).second)
+        table.fail("name", fmt::format("two bodies are named '{}'", body.name), {}, "give each its own name");
     }
     if (shape && fluid_side == Side::inside) container_.include(shape->bounds());
     unused(table, {"reflects", "sheet", "layers", "thin"});
@@ -546,11 +558,19 @@ class Reader {
     }
   }
 
+  void connect_ghosts() {
+    auto& options = setup_.options;
+    if (!setup_.choice.ghosts) return;
+    const double reach = options.support.uniform * (1 + options.neighbours.skin);
+    options.mirrors = ghosts_.mirrors(*setup_.choice.ghosts, reach, setup_.domain);
+  }
+
   const Table& root_;
   CaseSetup<N> setup_;
   std::vector<Body> bodies_;
   std::map<std::string, std::vector<Expression>> velocities_;
   Bounds container_;
+  GhostWalls<N> ghosts_;
   std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();
 };
 

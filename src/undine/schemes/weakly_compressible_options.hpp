@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "undine/materials/catalogue.hpp"
 #include "undine/terms/catalogue.hpp"
 #include "undine/walls/catalogue.hpp"
+#include "undine/walls/mirrors.hpp"
 
 namespace undine {
 
@@ -55,8 +57,10 @@ struct WeaklyCompressibleOptions {
 
   walls::WallDensity wall_density = walls::WallDensity::none;
   bool wall_pulls = false;  ///< whether evolved wall particles may fall below rho_0, and then pull on fluid that leaves
-  bool wall_friction = true;  ///< whether viscosities act between fluid and walls
-  Reflector<N> reflector;     ///< empty: no elastic walls
+  bool wall_friction = true;                         ///< whether viscosities act between fluid and walls
+  Reflector<N> reflector;                            ///< empty: no elastic walls
+  std::shared_ptr<const walls::Mirrors<N>> mirrors;  ///< of ghosts: needed by `mirrored` wall density, and only there
+  bool ghost_hydrostatic = true;                     ///< p_g = p + rho g.(x_g - x), instead of p_g = p
 
   std::vector<materials::Material> materials;
   bool strain_dissipation = false;  ///< also measure 2 mu D:D from the velocity gradient, at the cost of a sweep

@@ -2,6 +2,8 @@
 #include "undine/walls/adami.hpp"
 #include "undine/walls/combined.hpp"
 #include "undine/walls/elastic.hpp"
+#include "undine/walls/ghost_free_slip.hpp"
+#include "undine/walls/ghost_no_slip.hpp"
 #include "undine/walls/modified_density.hpp"
 #include "undine/walls/none.hpp"
 #include "undine/walls/wall_particles.hpp"
@@ -15,6 +17,8 @@ using Walls = Catalogue<  //
     WallParticles,        //
     ModifiedDensity,      //
     Elastic,              //
+    GhostFreeSlip,        //
+    GhostNoSlip,          //
     None>;
 
 }  // namespace undine::walls
