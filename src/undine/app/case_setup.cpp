@@ -164,7 +164,8 @@ class Reader {
   }
 
   void read_wall(const Table& table) {
-    Body body{table.text("name", fmt::format("wall{}", bodies_.size() + ghosts_.size())), Group::wall, 0, {}, {}, table};
+    Body body{
+        table.text("name", fmt::format("wall{}", bodies_.size() + ghosts_.size())), Group::wall, 0, {}, {}, table};
     const Table shape_table = table.table("shape");
     const Side fluid_side =
         table.choice("fluid", {"inside", "outside"}, "inside") == "inside" ? Side::inside : Side::outside;
