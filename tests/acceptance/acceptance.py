@@ -106,6 +106,58 @@ def still_water(program, cases, folder):
     require(residual <= 0.01, f"largest audit residual {residual:.2e} of the initial potential energy (limit 1e-2)")
 
 
+def ghosts_same_bits(program, cases, folder):
+    """With ghosts: the same checksum for 1, 2 and 4 threads, and for a run resumed at half time."""
+    for treatment in ("ghost_free_slip", "ghost_no_slip"):
+        words = ("--set", f"scheme.wall.treatment={treatment}", "--set", "spacing=0.04 m")
+        sums = [dam(program, cases, os.path.join(folder, f"{treatment}{n}"), "--threads", str(n), "--set", "time.end=0.08 s", *words) for n in (1, 2, 4)]
+        halves = os.path.join(folder, "halves" + treatment)
+        dam(program, cases, halves, "--set", "time.end=0.04 s", *words)
+        sums.append(dam(program, cases, halves, "--set", "time.end=0.08 s", "--resume", "--threads", "1", *words))
+        require(len(set(sums)) == 1, f"{treatment}: 1, 2, 4 threads and resumed give {sums}")
+
+
+def ghosts_dam_break(program, cases, folder):
+    """A dam break between ghosts to 1 s: no particle outside, snapshots without ghosts, audit residual at most 1 %."""
+    import h5py
+    import numpy
+    for treatment in ("ghost_free_slip", "ghost_no_slip"):
+        out = os.path.join(folder, treatment)
+        dam(program, cases, out, "--set", "time.end=1 s", "--set", "spacing=0.025 m", "--set", f"scheme.wall.treatment={treatment}")
+        outside, particles = 0, set()
+        for name in sorted(glob.glob(os.path.join(out, "*.vtkhdf"))):
+            x = h5py.File(name)["VTKHDF"]["Points"][:]
+            outside += int(numpy.sum((x[:, 0] < 0) | (x[:, 0] > 2) | (x[:, 1] < 0)))
+            particles.add(len(x))
+        residual = max(abs(row["residual_relative"]) for row in read_csv(os.path.join(out, "energies.csv")))
+        require(outside == 0 and particles == {400}, f"{treatment}: {outside} particles outside, {particles} in snapshots")
+        require(residual <= 0.01, f"{treatment}: largest audit residual {residual:.2e} (limit 1e-2)")
+
+
+def ghosts_still_water(program, cases, folder):
+    """RMS pressure error over the depth at most 5 % of the bottom pressure, speeds at most 10 mm/s, force on the walls within 1 % of the weight."""
+    import h5py
+    import numpy
+    case = os.path.join(folder, "case.toml")
+    with open(os.path.join(cases, "still_water_2d.toml"), encoding="utf-8") as source, open(case, "w", encoding="utf-8") as copy:
+        copy.write(source.read() + '\n[[gauge]]\nname = "force"\ntype = "wall_force"\n')
+    out = os.path.join(folder, "out")
+    undine(program, "run", case, "--out", out, "--quiet", "--set", "scheme.wall.treatment=ghost_free_slip", "--set", "spacing=0.025 m", "--set",
+           "time.end=1 s", "--set", "output.snapshots=0.1 s")
+    worst = 0.0
+    for name in sorted(glob.glob(os.path.join(out, "*.vtkhdf"))):
+        data = h5py.File(name)["VTKHDF"]
+        x, p = data["Points"][:], data["PointData"]["p"][:]
+        worst = max(worst, float(numpy.sqrt(numpy.mean((p - 1000 * 9.81 * (0.5 - x[:, 1])) ** 2))) / (1000 * 9.81 * 0.5))
+    require(worst <= 0.05, f"largest RMS pressure error {worst:.4f} of the bottom pressure (limit 0.05)")
+    speed = max(row["v_max"] for row in read_csv(os.path.join(out, "gauges", "extremes.csv")))
+    require(speed <= 0.01, f"largest speed {speed:.4f} m/s (limit 0.01)")
+    rows = read_csv(os.path.join(out, "gauges", "force.csv"))
+    force = sum(row["fy"] for row in rows[len(rows) // 2:]) / len(rows[len(rows) // 2:])
+    weight = 1000 * 9.81 * 0.25
+    require(abs(force + weight) <= 0.01 * weight, f"mean force on the walls {force:.1f} N, weight {weight:.1f} N (limit 1 %)")
+
+
 def vtk_reads_back(program, cases, folder):
     """VTK's own reader and h5py agree on every snapshot; the series names them all."""
     undine(program, "run", os.path.join(cases, "dam_break_2d.toml"), "--out", folder, "--quiet", "--set", "time.end=0.02 s", "--set",

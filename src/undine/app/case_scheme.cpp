@@ -161,9 +161,16 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
     options.wall_density = W::density;
     choice.wall_force = walls::force_of<W>();
     choice.reflects = wall.flag("guard", W::reflects || Preset::guard);
+    if constexpr (requires { W::slip; }) choice.ghosts = W::slip;
   });
+  if (choice.ghosts) {
+    options.ghost_hydrostatic = wall.flag("hydrostatic", true);
+    if (!choice.reflects)
+      wall.fail("guard", "walls with ghosts need the guard",
+                "the ghost of a particle behind a wall would lie in the fluid", "leave 'guard' out");
+  }
   const bool repels = choice.wall_force == walls::WallForce::repulsion;
-  choice.wall_particles = options.wall_density != walls::WallDensity::none || repels;
+  choice.wall_particles = (options.wall_density != walls::WallDensity::none && !choice.ghosts) || repels;
   options.wall_pulls = wall.flag("pulls", Preset::wall_pulls);
   read_slip(wall, options);
   choice.restitution = wall.in_range("restitution", unit::one, {0, 1}, 1.0);

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct SchemeChoice {
   bool reflects = false;  ///< elastic surfaces are wanted
   bool wall_particles = false;
   walls::WallForce wall_force = walls::WallForce::none;
+  std::optional<walls::Slip> ghosts;  ///< of walls that mirror the fluid
   std::string wall_reference;         ///< "auto", "rho_0" or empty: `wall_reference_density`
   double wall_reference_density = 0;  ///< kg/m^3
   double restitution = 1;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "undine/app/case_ghosts.hpp"
 #include "undine/app/case_particles.hpp"
 #include "undine/app/case_shapes.hpp"
 #include "undine/app/case_walls.hpp"
@@ -46,6 +47,7 @@ struct Body {
 };
 
 constexpr std::int64_t most_layers = 100;  ///< of a wall
+constexpr int no_body = -1;                ///< number of a wall that has no particles of its own, but ghosts
 
 template <int N>
 class Reader {
@@ -74,6 +76,7 @@ class Reader {
     plan_walls();
     connect_distance();
     connect_reflector();
+    connect_ghosts();
     return std::move(setup_);
   }
 
@@ -166,7 +169,8 @@ class Reader {
   }
 
   void read_wall(const Table& table) {
-    Body body{table.text("name", fmt::format("wall{}", bodies_.size())), Group::wall, 0, {}, {}, table};
+    Body body{
+        table.text("name", fmt::format("wall{}", bodies_.size() + ghosts_.size())), Group::wall, 0, {}, {}, table};
     const Table shape_table = table.table("shape");
     const Side fluid_side =
         table.choice("fluid", {"inside", "outside"}, "inside") == "inside" ? Side::inside : Side::outside;
@@ -186,10 +190,26 @@ class Reader {
     };
     if (shape && reflects) add_to(surface_);
     if (shape && pushes) add_to(pushing_);
-    if (!placed.empty() || setup_.choice.wall_particles) body.motion = read_motion(table, placed);
+    if (setup_.choice.ghosts) {
+      for (const char* key : {"displacement", "slide"})
+        if (table.has(key))
+          table.fail(key, "walls with ghosts do not move", "their mirrors stand still",
+                     "choose another treatment, such as 'adami' or 'mdbc'");
+    } else if (!placed.empty() || setup_.choice.wall_particles) {
+      body.motion = read_motion(table, placed);
+    }
     if (shape) {
       body.surface = std::make_shared<ReflectingSurface>();
       add_surface(*body.surface, shape, fluid_side, open);
+    }
+    if (setup_.choice.ghosts) {
+      if (!shape) shape = read_shape(shape_table, N);  // says that it is missing
+      if (!reflects)
+        table.fail("reflects", "walls with ghosts reflect", "a particle behind one would have its ghost in the fluid",
+                   "leave 'reflects' out");
+      ghosts_.add(table, body.name, *shape, fluid_side, open);
+      if (!setup_.bodies.emplace(body.name, no_body).second)
+        table.fail("name", fmt::format("two bodies are named '{}'", body.name), {}, "give each its own name");
     }
     if (shape && fluid_side == Side::inside) container_.include(shape->bounds());
     unused(table, {"reflects", "sheet", "layers", "thin"});
@@ -640,11 +660,19 @@ class Reader {
     }
   }
 
+  void connect_ghosts() {
+    auto& options = setup_.options;
+    if (!setup_.choice.ghosts) return;
+    const double reach = options.support.uniform * (1 + options.neighbours.skin);
+    options.mirrors = ghosts_.mirrors(*setup_.choice.ghosts, reach, setup_.domain);
+  }
+
   const Table& root_;
   CaseSetup<N> setup_;
   std::vector<Body> bodies_;
   std::map<std::string, std::vector<Expression>> velocities_;
   Bounds container_;
+  GhostWalls<N> ghosts_;
   std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();
   std::shared_ptr<ReflectingSurface> pushing_ = std::make_shared<ReflectingSurface>();
   double fastest_wall_ = 0;  ///< m/s, until time.end

@@ -135,12 +135,13 @@ class Height : public Gauge<N> {
 
   std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
     const auto source = source_of(flow);
+    const bool ghosts = flow.options().mirrors != nullptr;
     const double step = std::abs(to_ - from_) / static_cast<double>(intervals_);
     double wetted = 0, surface = 0;
-    double below = wetness(source, 0);
+    double below = wetness(source, 0, ghosts);
     for (std::size_t k = 1; k <= intervals_; ++k) {
       const double s = step * static_cast<double>(k);
-      const double above = wetness(source, s);
+      const double above = wetness(source, s, ghosts);
       const double crossing = (below > 0) != (above > 0) ? step * below / (below - above) : 0;  // from the lower end
       if (below > 0) {
         wetted += above > 0 ? step : crossing;
@@ -160,10 +161,12 @@ class Height : public Gauge<N> {
   }
 
   /// Positive where the point at distance s from `from` is wet.
-  double wetness(const InterpolationSource<N>& source, double s) const {
+  double wetness(const InterpolationSource<N>& source, double s, bool ghosts) const {
     Vec<N> x = at_;
     x[axis_] = from_ + std::copysign(s, to_ - from_);
     const double walls = wall_share(source, x);
+    // Ghosts go on where the fluid does: with them the kernel is as full at a wall as elsewhere.
+    if (ghosts) return fluid_share(source, x) + walls - 0.5 * std::min(1.0, 0.5 + s / source.support.uniform);
     if (walls > 0.8) return -0.5;
     const double share = std::min(1 - walls, 0.5 + s / source.support.uniform);
     return fluid_share(source, x) - 0.5 * share;
@@ -192,7 +195,8 @@ class WallForce : public Gauge<N> {
     std::vector<std::string> names;
     for (const auto& [name, body] : context.bodies) names.push_back(name);
     if (names.empty()) table.fail("wall", "no wall of this case has a name", {}, "name it there, or leave out 'wall'");
-    const int body = context.bodies.at(table.choice("wall", names));
+    wall_ = table.choice("wall", names);
+    const int body = context.bodies.at(wall_);
     one_body_ = true;
     for (const int each : context.body_of_id) of_body_.push_back(each == body);
   }
@@ -211,14 +215,19 @@ class WallForce : public Gauge<N> {
     const auto m = flow.store().template get<field::m>();
     const auto acc = flow.store().template get<field::acc>();
     const auto ids = flow.store().ids();
+    const auto* mirrors = flow.options().mirrors.get();
+    const auto counts = [&](std::int64_t id) {
+      if (!one_body_) return true;
+      if (mirrors) return mirrors->wall(Ghosts<N>::mirror_of(id)) == wall_;
+      return static_cast<std::size_t>(id) < of_body_.size() && of_body_[static_cast<std::size_t>(id)];
+    };
     const Total total = total_over(flow.store(), Group::wall, [&](std::size_t i) {
-      const auto id = static_cast<std::size_t>(ids[i]);
-      if (one_body_ && !(id < of_body_.size() && of_body_[id])) return Total{};
+      if (!counts(ids[i])) return Total{};
       const Vec<N> force = m[i] * acc[i];
       return Total{force, cross(in_3d(x[i] - about_), in_3d(force)), 1};
     });
     const auto& options = flow.options();
-    if (total.particles == 0 || (options.wall_density == walls::WallDensity::none && !options.repulsion))
+    if ((total.particles == 0 && !mirrors) || (options.wall_density == walls::WallDensity::none && !options.repulsion))
       throw InputError(
           {.what = "this gauge finds no wall particles to measure the force on",
            .where = where_,
@@ -253,6 +262,7 @@ class WallForce : public Gauge<N> {
   SourceLocation where_;
   Vec<N> about_;
   bool one_body_ = false;
+  std::string wall_;           ///< its name
   std::vector<char> of_body_;  ///< by particle id
 };
 

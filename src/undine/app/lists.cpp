@@ -48,8 +48,12 @@ constexpr std::array<std::string_view, precision_names.size()> precision_titles{
     "State in double, pairs in float on relative positions", "State and pairs in double"};
 
 // In the order of the enumerators.
-constexpr std::string_view wall_density_words[]{"none", "by continuity", "from the fluid's sum",
-                                                "from the fluid's pressure", "from the fluid mirrored"};
+constexpr std::string_view wall_density_words[]{"none",
+                                                "by continuity",
+                                                "from the fluid's sum",
+                                                "from the fluid's pressure",
+                                                "from the fluid mirrored",
+                                                "that of the parent"};
 constexpr std::string_view rank_words[]{"scalar", "vector", "tensor"};
 constexpr std::string_view role_words[]{"constant", "state", "rate", "derived"};
 constexpr std::string_view join_words[]{"sum", "max"};

@@ -55,7 +55,10 @@ template <int N>
 Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
                std::vector<std::int32_t>& groups) {
   const Store<N>& store = flow.store();
-  Frame frame{.time = flow.time(), .step = step, .dimensions = N, .particles = store.size()};
+  // Ghosts come last in the store, and are of use to nobody but the run itself.
+  const bool ghosts = fields.empty() || !flow.options().mirrors;
+  const std::size_t particles = ghosts ? store.size() : store.range(Group::fluid).size();
+  Frame frame{.time = flow.time(), .step = step, .dimensions = N, .particles = particles};
   for (int f = 0; f < FieldId::count; ++f) {
     const bool wanted = fields.empty() || f == FieldId::x || std::ranges::count(fields, f) > 0;
     if (!wanted || !store.fields()[f]) continue;

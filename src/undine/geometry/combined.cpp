@@ -16,6 +16,23 @@ double thin_fraction(const Vec3& from, const Vec3& to) {
   return length > 0 ? std::min(1.0, 1e-14 * size / length) : 0.0;
 }
 
+/// What fills any of the shapes' sides.
+bool flat_parts_of_any(const std::vector<ShapePtr>& shapes, Side side, std::vector<FlatPart>& parts) {
+  return std::all_of(shapes.begin(), shapes.end(), [&](const auto& shape) { return shape->flat_parts(side, parts); });
+}
+
+/// What fills all of the shapes' sides, where each of these is a single convex region.
+bool flat_part_of_all(const std::vector<ShapePtr>& shapes, Side side, std::vector<FlatPart>& parts) {
+  FlatPart common;
+  for (const auto& shape : shapes) {
+    std::vector<FlatPart> one;
+    if (!shape->flat_parts(side, one) || one.size() != 1) return false;
+    common.insert(common.end(), one.front().begin(), one.front().end());
+  }
+  parts.push_back(std::move(common));
+  return true;
+}
+
 /// Every point that is not in the shape.
 class Complement final : public Shape {
  public:
@@ -27,6 +44,9 @@ class Complement final : public Shape {
   bool inside(const Vec3& p) const override { return !shape_->inside(p); }
   Spans spans(const Vec3& from, const Vec3& to) const override {
     return other_spans(shape_->spans(from, to), thin_fraction(from, to));
+  }
+  bool flat_parts(Side side, std::vector<FlatPart>& parts) const override {
+    return shape_->flat_parts(side == Side::inside ? Side::outside : Side::inside, parts);
   }
 
  private:
@@ -51,6 +71,9 @@ class Intersection final : public Shape {
     const double thin = thin_fraction(from, to);
     for (std::size_t k = 1; k < parts_.size(); ++k) all = both_spans(all, parts_[k]->spans(from, to), thin);
     return all;
+  }
+  bool flat_parts(Side side, std::vector<FlatPart>& parts) const override {
+    return side == Side::inside ? flat_part_of_all(parts_, side, parts) : flat_parts_of_any(parts_, side, parts);
   }
 
  private:
@@ -86,6 +109,9 @@ class Union final : public Shape {
       none = both_spans(none, other_spans(parts_[k]->spans(from, to), thin), thin);
     }
     return other_spans(none, 0);
+  }
+  bool flat_parts(Side side, std::vector<FlatPart>& parts) const override {
+    return side == Side::inside ? flat_parts_of_any(parts_, side, parts) : flat_part_of_all(parts_, side, parts);
   }
 
  private:

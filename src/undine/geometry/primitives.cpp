@@ -79,6 +79,21 @@ class BoxShape final : public Shape {
 
   Bounds bounds() const override { return box_; }
   std::optional<Bounds> as_box() const override { return box_; }
+  bool flat_parts(Side side, std::vector<FlatPart>& parts) const override {
+    if (side == Side::inside) parts.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      for (const int end : {0, 1}) {
+        FlatFace face{{}, unit(k, end == 0 ? -1 : 1)};
+        face.point[k] = end == 0 ? box_.lo[k] : box_.hi[k];
+        if (!std::isfinite(face.point[k])) continue;
+        if (side == Side::inside) {
+          parts.back().push_back(face);
+        } else {
+          parts.push_back({{face.point, -face.normal}});
+        }
+      }
+    return true;
+  }
   bool inside(const Vec3& p) const override { return box_.holds(p); }
 
   Spans spans(const Vec3& from, const Vec3& to) const override {
@@ -242,6 +257,11 @@ class HalfSpace final : public Shape {
     const double a = signed_distance(from);
     const double b = signed_distance(to);
     return side == Side::inside ? a < 0 && b < 0 : a > 0 && b > 0;
+  }
+
+  bool flat_parts(Side side, std::vector<FlatPart>& parts) const override {
+    parts.push_back({{offset_ * normal_, side == Side::inside ? normal_ : -normal_}});
+    return true;
   }
 
  private:

@@ -23,4 +23,6 @@ bool Shape::clear(const Vec3& from, const Vec3& to, Side side) const {
   return depth > 0 && sq(depth) > norm_sq(to - from) * (1 + 1e-12);
 }
 
+bool Shape::flat_parts(Side, std::vector<FlatPart>&) const { return false; }
+
 }  // namespace undine

@@ -18,6 +18,14 @@ struct Crossing {
   Vec3 normal{};        ///< unit, towards the side that is left
 };
 
+/// A plane face: a point on it, and its unit normal.
+struct FlatFace {
+  Vec3 point{};  ///< m
+  Vec3 normal{};
+};
+/// A convex region: what is behind all its faces, whose normals point out of it.
+using FlatPart = std::vector<FlatFace>;
+
 /// A region of space. Cases in one and two dimensions use the same shapes with the unused coordinates 0.
 /// Shapes never change once made, so that threads may share them.
 class Shape {
@@ -44,6 +52,10 @@ class Shape {
 
   /// True only if the whole segment surely stays on `side` and off the surface. Cheap; may say false too often.
   virtual bool clear(const Vec3& from, const Vec3& to, Side side) const;
+
+  /// Appends convex regions with flat faces that together fill one side of the shape. False, with `parts` as it likes,
+  /// where the shape cannot say them: it is round, or a net of triangles.
+  virtual bool flat_parts(Side side, std::vector<FlatPart>& parts) const;
 
   /// The box itself if the shape is one.
   virtual std::optional<Bounds> as_box() const { return std::nullopt; }

@@ -1,11 +1,13 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "undine/engine/plan.hpp"
 #include "undine/engine/update.hpp"
 #include "undine/schemes/energies.hpp"
+#include "undine/schemes/ghosts.hpp"
 #include "undine/schemes/weakly_compressible_options.hpp"
 #include "undine/schemes/weakly_compressible_sweeps.hpp"
 
@@ -103,14 +105,19 @@ class WeaklyCompressible {
   double largest_support() const;
   /// What every sweep reads of its particles.
   FieldSet place() const { return options_.rho_law ? Fields<field::x, field::h>::set() : Fields<field::x>::set(); }
+  Vec<N> gravity_of_ghosts() const { return options_.ghost_hydrostatic ? options_.gravity : Vec<N>{}; }
   /// A summed density leaves nothing for diffusion to change.
   bool diffuses() const { return options_.diffusion && options_.density == DensityForm::evolved; }
+  bool renormalises() const {
+    return diffuses() && options_.diffusion->index() == terms::DiffusionForms::index<terms::DiffusionAntuono>();
+  }
   void recall(const std::vector<double>& numbers);
 
   Store<N> store_;
   Domain<N> domain_;
   Options options_;
   Neighbours<N> neighbours_;
+  std::optional<Ghosts<N>> ghosts_;
   Plan plan_;
   std::vector<SweepNote> sweeps_;
   double support_now_ = 0;

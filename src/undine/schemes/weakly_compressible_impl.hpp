@@ -21,6 +21,7 @@ WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domai
       domain_(domain),
       options_(std::move(options)),
       neighbours_(domain_, options_.neighbours) {
+  if (options_.mirrors) ghosts_.emplace(options_.mirrors);
   configure();
   make_plan();
   if (memory.empty()) {
@@ -36,6 +37,11 @@ template <int N>
 void WeaklyCompressible<N>::configure() {
   const bool walls = options_.wall_density != WallDensity::none;
   const bool friction = walls && options_.wall_friction;
+  // Ghosts are fluid. Diffusion must not see their density where it is not the hydrostatic one of their place, nor
+  // gradients that nothing mirrors.
+  const bool ghosts = ghosts_.has_value();
+  const bool at_rest = options_.ghost_hydrostatic || norm_sq(options_.gravity) == 0;
+  const bool ghosts_diffuse = ghosts && at_rest && !renormalises();
 
   auto continuity = options_.continuity;
   // A summed density changes as its derivative says, whichever continuity form the case names.
@@ -47,8 +53,8 @@ void WeaklyCompressible<N>::configure() {
   force_.template use<Sweeps::continuity>() = {continuity, true, {true, walls}, {}};
   force_.template use<Sweeps::artificial>() = {
       chosen(options_.artificial), options_.artificial.has_value(), {true, friction}, {}};
-  force_.template use<Sweeps::diffusion>() = {chosen(options_.diffusion), diffuses(), {true, false}, {}};
-  force_.template use<Sweeps::xsph>() = {chosen(options_.xsph), options_.xsph.has_value(), {true, false}, {}};
+  force_.template use<Sweeps::diffusion>() = {chosen(options_.diffusion), diffuses(), {true, ghosts_diffuse}, {}};
+  force_.template use<Sweeps::xsph>() = {chosen(options_.xsph), options_.xsph.has_value(), {true, ghosts}, {}};
   force_.template use<Sweeps::viscosity>() = {
       chosen(options_.viscosity), options_.viscosity.has_value(), {true, friction && !holds()}, {}};
   force_.take_from({true, walls});  // wall particles that only repel are none of its neighbours
@@ -84,13 +90,11 @@ void WeaklyCompressible<N>::configure() {
 template <int N>
 void WeaklyCompressible<N>::make_plan() {
   const bool walls = options_.wall_density != WallDensity::none;
-  const bool renormalised =
-      diffuses() && options_.diffusion->index() == terms::DiffusionForms::index<terms::DiffusionAntuono>();
 
   add_density_stages();
   add_update("equation of state", Group::fluid, rules::ApplyEquationOfState{options_.materials});
   if (walls) add_wall_stages();
-  if (renormalised) {
+  if (renormalises()) {
     add_sweep(gradient_, false);
     add_update("renormalised gradient", Group::fluid, rules::RenormaliseGradient<N>{});
   }
@@ -148,7 +152,9 @@ void WeaklyCompressible<N>::add_density_stages() {
   // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
   const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
   Resources reads(Group::fluid, Fields<m, rho>::set() | place());
-  if (options_.wall_density != WallDensity::none) reads.add(Group::wall, Fields<m, rho>::set() | place());
+  if (options_.wall_density != WallDensity::none) reads.add(Group::wall, Fields<m>::set() | place());
+  // Ghosts too have the density of before, and take the new one afterwards.
+  if (options_.wall_density != WallDensity::none && !ghosts_) reads.add(Group::wall, Fields<rho>::set());
   plan_.add({"normalised density", reads, touched, [this] {
                run(summation_);
                run(shepard_);
@@ -231,10 +237,13 @@ double WeaklyCompressible<N>::largest_support() const {
 template <int N>
 void WeaklyCompressible<N>::refresh_lists() {
   const Stopwatch watch(seconds_lists_);
+  if (ghosts_) ghosts_->follow(store_);
   support_now_ = largest_support();
   if (!neighbours_.stale(store_, support_now_)) return;
   check_particles();
+  if (ghosts_) ghosts_->make(store_, support_now_ * (1 + options_.neighbours.skin));
   neighbours_.build(store_, support_now_);
+  if (ghosts_) ghosts_->find_parents(store_);
   ++list_builds_;
 }
 
@@ -404,7 +413,7 @@ void WeaklyCompressible<N>::book(double dt) {
   const Power& diffusion = force_.template use<Sweeps::diffusion>().power;
   ledger_.viscous -= dt * viscous[fluid];
   ledger_.artificial -= dt * artificial[fluid];
-  ledger_.diffusion -= dt * diffusion[fluid];
+  ledger_.diffusion -= dt * (diffusion[fluid] + diffusion[wall]);
   ledger_.exchange -= dt * (pressure[fluid] + compression[fluid]);
   ledger_.walls -= dt * (pressure[wall] + compression[wall] + viscous[wall] + artificial[wall]);
   if (pushes()) ledger_.walls -= dt * (push_.template use<0>().power[wall] + push_.template use<1>().power[wall]);
@@ -480,6 +489,7 @@ void WeaklyCompressible<N>::recall(const std::vector<double>& numbers) {
   auto next = numbers.begin();
   time_ = *next++;
   neighbours_.rebuild_from_list_positions(store_, *next++);
+  if (ghosts_) ghosts_->find_parents(store_);
   body_power_ = *next++;
   strain_power_ = *next++;
   strain_dissipated_ = *next++;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "undine/schemes/wall_motion.hpp"
 #include "undine/terms/catalogue.hpp"
 #include "undine/walls/catalogue.hpp"
+#include "undine/walls/mirrors.hpp"
 
 namespace undine {
 
@@ -63,6 +65,8 @@ struct WeaklyCompressibleOptions {
   std::optional<terms::Repulsion> repulsion;  ///< of wall particles, which then do nothing else
   std::function<Vec<N>(const Vec<N>& x)>
       pushed_out;  ///< where walls want a particle at x to be; empty: they do not push
+  std::shared_ptr<const walls::Mirrors<N>> mirrors;  ///< of ghosts: needed by `copied` wall density, and only there
+  bool ghost_hydrostatic = true;                     ///< p_g = p + rho g.(x_g - x), instead of p_g = p
 
   std::vector<materials::Material> materials;
   bool strain_dissipation = false;  ///< also measure 2 mu D:D from the velocity gradient, at the cost of a sweep

@@ -15,6 +15,12 @@ void WeaklyCompressible<N>::add_wall_stages() {
     if (holds()) add_update("wall friction velocity", Group::wall, rules::AnswerFrictionVelocity{});
     return;
   }
+  if (options_.wall_density == WallDensity::copied) {
+    const FieldSet answer = Fields<rho, p, c>::set();
+    plan_.add({"ghosts' answer", Resources(Group::fluid, answer | Fields<x>::set()), Resources(Group::wall, answer),
+               [this] { ghosts_->answer(store_, gravity_of_ghosts(), options_.wall_pulls, options_.materials); }});
+    return;
+  }
   if (options_.wall_density == WallDensity::mirrored) {
     add_mirror_stage();
   } else if (options_.wall_density == WallDensity::modified) {

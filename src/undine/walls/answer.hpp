@@ -8,7 +8,14 @@ enum class WallDensity {
   evolved,       ///< by continuity, as fluid
   modified,      ///< reference density plus the sum over the fluid: Saalfeld (2012), eq. 70
   extrapolated,  ///< from the pressure of the fluid, carried to the wall: Adami et al. (2012)
-  mirrored       ///< from the density of the fluid at the mirror image, carried to the wall: English et al. (2022)
+  mirrored,      ///< from the density of the fluid at the mirror image, carried to the wall: English et al. (2022)
+  copied         ///< that of the fluid particle whose ghost it is
+};
+
+/// What a ghost does with the velocity of its parent, relative to the wall.
+enum class Slip {
+  free,  ///< turns the part along the wall's normal round
+  none   ///< turns all of it round
 };
 
 /// What walls do to fluid besides answering with a density.

@@ -3,6 +3,8 @@
 #include "undine/walls/combined.hpp"
 #include "undine/walls/distance.hpp"
 #include "undine/walls/elastic.hpp"
+#include "undine/walls/ghost_free_slip.hpp"
+#include "undine/walls/ghost_no_slip.hpp"
 #include "undine/walls/mdbc.hpp"
 #include "undine/walls/modified_density.hpp"
 #include "undine/walls/none.hpp"
@@ -21,6 +23,8 @@ using Walls = Catalogue<  //
     Elastic,              //
     Distance,             //
     Repulsive,            //
+    GhostFreeSlip,        //
+    GhostNoSlip,          //
     None>;
 
 }  // namespace undine::walls
