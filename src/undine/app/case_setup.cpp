@@ -39,6 +39,7 @@ struct Body {
   std::vector<Vec3> points;
   std::map<std::string, std::vector<double>> given;  ///< columns of a particle list: vx, vy, vz, rho, m
   Table table;
+  bool of_a_run = false;     ///< particles that a run left, which may be closer than any lattice lays them
   bool may_coincide = true;  ///< points that a lattice laid are apart from each other
 };
 
@@ -69,6 +70,7 @@ class Reader {
     read_body_force();
     start_walls();
     connect_reflector();
+    setup_.walls = walls_;
     return std::move(setup_);
   }
 
@@ -79,7 +81,8 @@ class Reader {
   }
 
   void take_list(Body& body) {
-    auto list = read_particle_list(body.table, N);
+    auto list = read_particle_list(body.table, N, body.group);
+    body.of_a_run = list.of_a_run;
     body.points = std::move(list.points);
     body.given = std::move(list.given);
   }
@@ -171,15 +174,17 @@ class Reader {
     const bool reflects = setup_.choice.reflects && table.flag("reflects", true);
     ShapePtr shape;
     if (!has_list || shape_table.exists()) shape = read_shape(shape_table, N);
-    if (shape && reflects) {
+    const auto add_to = [&](ReflectingSurface& surface) {
       const auto box = shape->as_box();
       if (box && fluid_side == Side::inside) {
-        surface_->add_tank(*box, N, open, setup_.choice.restitution);
+        surface.add_tank(*box, N, open, setup_.choice.restitution);
       } else {
-        surface_->add(shape, fluid_side, setup_.choice.restitution);
+        surface.add(shape, fluid_side, setup_.choice.restitution);
       }
-    }
-    if (shape && fluid_side == Side::inside) container_.include(shape->bounds());
+    };
+    if (shape && reflects) add_to(*surface_);
+    if (shape) add_to(*walls_);
+    if (shape && fluid_side == Side::inside) setup_.container.include(shape->bounds());
     unused(table, {"reflects", "sheet", "layers", "thin"});
     if (has_list) {
       take_list(body);
@@ -240,12 +245,15 @@ class Reader {
     const auto points = [&](std::size_t b) -> const std::vector<Vec3>& {
       return periodic ? wrapped[b] : bodies_[b].points;
     };
-    const double closest = 0.5 * setup_.spacing;
+    const auto closest = [&](const Body& a, const Body& b) {
+      return (a.of_a_run || b.of_a_run ? 1e-6 : 0.5 * (1 - 1e-6)) * setup_.spacing;  // half a spacing is fine
+    };
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      if (bodies_[b].may_coincide) complain_of(check_overlap(points(b), closest), bodies_[b], bodies_[b]);
+      if (bodies_[b].may_coincide)
+        complain_of(check_overlap(points(b), closest(bodies_[b], bodies_[b])), bodies_[b], bodies_[b]);
       for (std::size_t a = 0; a < b; ++a)
         if (bodies_[a].group == Group::fluid)
-          complain_of(check_overlap(points(a), points(b), closest), bodies_[a], bodies_[b]);
+          complain_of(check_overlap(points(a), points(b), closest(bodies_[a], bodies_[b])), bodies_[a], bodies_[b]);
     }
   }
 
@@ -285,7 +293,7 @@ class Reader {
     Bounds all;
     for (const auto& body : bodies_)
       for (const auto& p : body.points) all.include(p);
-    if (!container_.empty()) all.include(container_);
+    if (!setup_.container.empty()) all.include(setup_.container);
     const Table table = root_.table("domain");
     double extent = setup_.options.support.uniform;  // some room even around a single point
     for (int k = 0; k < N; ++k)
@@ -550,8 +558,8 @@ class Reader {
   CaseSetup<N> setup_;
   std::vector<Body> bodies_;
   std::map<std::string, std::vector<Expression>> velocities_;
-  Bounds container_;
-  std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();
+  std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();  ///< what reflects
+  std::shared_ptr<ReflectingSurface> walls_ = std::make_shared<ReflectingSurface>();    ///< every wall
 };
 
 }  // namespace

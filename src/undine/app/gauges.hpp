@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "undine/app/gauges/comparison.hpp"
@@ -33,6 +34,12 @@ class GaugeSet {
   std::vector<Comparison> compare() const;
 
   std::size_t size() const { return entries_.size(); }
+  /// Name of each gauge, and the columns of its file, time included.
+  std::vector<std::pair<std::string, std::vector<SeriesColumn>>> files() const {
+    std::vector<std::pair<std::string, std::vector<SeriesColumn>>> all;
+    for (const Entry& entry : entries_) all.emplace_back(entry.name, file_columns(*entry.gauge));
+    return all;
+  }
 
  private:
   struct Reference {

@@ -1,6 +1,8 @@
 #pragma once
+#include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +10,7 @@
 
 #include "undine/core/catalogue.hpp"
 #include "undine/engine/interpolate.hpp"
+#include "undine/geometry/surface.hpp"
 #include "undine/io/case/table.hpp"
 #include "undine/io/time_series.hpp"
 #include "undine/schemes/weakly_compressible.hpp"
@@ -23,7 +26,12 @@ struct GaugeContext {
   Domain<N> domain = Domain<N>::unbounded();
   std::map<std::string, int> bodies = {};  ///< numbers of the walls that have a name
   std::vector<int> body_of_id =
-      {};  ///< body of each particle, by particle id; may be empty for a check of the case alone
+      {};              ///< body of each particle, by particle id; may be empty for a check of the case alone
+  double support = 0;  ///< H at the start, m
+  std::vector<std::string> materials = {};              ///< names of the fluids, by number; all different
+  std::vector<double> rest_densities = {};              ///< rho_0 of each, kg/m^3
+  std::shared_ptr<const ReflectingSurface> walls = {};  ///< surfaces of all walls; may be absent
+  Bounds container = {};                                ///< of the walls with the fluid inside, m
 };
 
 /// One instrument: it reads the run and changes nothing.
@@ -66,6 +74,29 @@ Vec<N> read_point(const Table& table, std::string_view key, std::optional<Vec<N>
   Vec<N> point;
   for (int k = 0; k < N; ++k) point[k] = numbers[static_cast<std::size_t>(k)];
   return point;
+}
+
+/// The axis along which gravity is largest; the last one without gravity.
+template <int N>
+int steepest_axis(const Vec<N>& gravity) {
+  int steepest = N - 1;
+  for (int k = 0; k < N; ++k)
+    if (std::abs(gravity[k]) > std::abs(gravity[steepest])) steepest = k;
+  return steepest;
+}
+
+template <int N>
+Vec3 in_3d(const Vec<N>& a) {
+  Vec3 b{};
+  for (int k = 0; k < N; ++k) b[k] = a[k];
+  return b;
+}
+
+template <int N>
+void require_walls(const Table& table, const GaugeContext<N>& context) {
+  if (!context.walls || context.walls->empty())
+    table.fail("type", "this gauge needs a wall with a shape", "it measures distances to the walls' surfaces",
+               "add a [[wall]] with a shape, or remove the gauge");
 }
 
 template <int N>

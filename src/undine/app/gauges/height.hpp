@@ -25,10 +25,7 @@ class Height : public Gauge<N> {
       "threshold at the middle of a flat surface"};
 
   Height(const Table& table, const GaugeContext<N>& context) : at_(read_point<N>(table, "at")) {
-    int steepest = N - 1;
-    for (int k = 0; k < N; ++k)
-      if (std::abs(context.gravity[k]) > std::abs(context.gravity[steepest])) steepest = k;
-    axis_ = read_axis<N>(table, steepest);
+    axis_ = read_axis<N>(table, steepest_axis(context.gravity));
     const bool down = context.gravity[axis_] > 0;  // gravity along +axis: the column rises along -axis
     from_ = read_end(table, "from", down ? context.domain.high[axis_] : context.domain.low[axis_]);
     to_ = read_end(table, "to", down ? context.domain.low[axis_] : context.domain.high[axis_]);

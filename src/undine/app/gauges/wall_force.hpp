@@ -73,12 +73,6 @@ class WallForce : public Gauge<N> {
     }
   };
 
-  static Vec<3> in_3d(const Vec<N>& a) {
-    Vec<3> b;
-    for (int k = 0; k < N; ++k) b[k] = a[k];
-    return b;
-  }
-
   SourceLocation where_;
   Vec<N> about_;
   bool one_body_ = false;
