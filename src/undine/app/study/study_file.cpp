@@ -62,6 +62,15 @@ void claim(const Table& table, const std::string& name, std::set<std::string>& n
   if (!names.insert(name).second) table.fail("name", fmt::format("'{}' is defined twice", name), {}, "rename one");
 }
 
+/// The case that key `case` names, which must exist.
+std::filesystem::path read_base(const Table& table) {
+  const std::filesystem::path file = table.path("case");
+  if (!std::filesystem::is_regular_file(file))
+    table.fail("case", fmt::format("there is no file '{}'", file.string()), {},
+               "check the path; names are relative to the study file's folder");
+  return file;
+}
+
 AxisValue read_value(const Table& table) {
   AxisValue value{.name = table.text("name"),
                   .set = table.leaves("set"),
@@ -69,7 +78,7 @@ AxisValue read_value(const Table& table) {
                   .number = std::nan(""),
                   .from = {},
                   .into = {}};
-  if (table.has("case")) value.base = table.path("case");
+  if (table.has("case")) value.base = read_base(table);
   if (table.has("number")) value.number = table.number("number");
   if (table.has("from")) {
     value.from = table.text("from");
@@ -201,7 +210,7 @@ Expression::Variables StudyFile::variables() const {
 StudyFile read_study(const Document& document, const std::filesystem::path& file, bool quick) {
   const Table root = document.root();
   StudyFile study{.title = root.text("title", ""), .file = file, .base = {}, .set = root.leaves("set")};
-  if (root.has("case")) study.base = root.path("case");
+  if (root.has("case")) study.base = read_base(root);
   std::set<std::string> names;
   for (const Table& table : root.tables("axis")) {
     study.axes.push_back(read_axis(table));
