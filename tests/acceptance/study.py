@@ -113,7 +113,7 @@ name = "overlap"
 set = { "wall[0].shape.high" = [0.3, 1] }
 [[axis.value]]
 name = "breaks"
-set = { time.step = "50 ms" }
+set = { time.step = "10 ms", time.end = "2 s" }
 [[axis.value]]
 name = "fine"
 [[quantity]]
@@ -126,9 +126,11 @@ rules = [{ when = "finished < 1", says = "unstable" }, { says = "stable" }]
     out = os.path.join(folder, "out")
     undine(program, "study", study, "--out", out)
     rows = results(out)
-    require(rows["overlap"]["status"] == "failed" and "wall" in rows["overlap"]["error"], f"overlap: {rows['overlap']['error'][:90]}")
+    require(rows["overlap"]["status"] == "failed" and "overlap" in rows["overlap"]["error"], f"overlap: {rows['overlap']['error'][:90]}")
     require(rows["fine"]["status"] == "finished" and rows["fine"]["stability"] == "stable", "fine: finished, stable")
-    print("        breaks:", rows["breaks"]["status"], rows["breaks"]["error"][:90])
+    breaks = rows["breaks"]
+    require(breaks["status"] == "went bad" and breaks["stability"] == "unstable" and 0 < float(breaks["bad_at"]) < 2,
+            f"breaks: {breaks['status']} at {breaks['bad_at']} s: {breaks['error'][:60]}")
 
 
 def starts_from_another(program, cases, folder):

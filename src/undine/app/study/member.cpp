@@ -37,8 +37,10 @@ fs::path last_snapshot(const Member& member) {
 RunOptions run_options(const Member& member, const std::vector<Member>& all) {
   RunOptions options{.file = member.base, .sets = {}, .out = member.folder};
   for (const Table::Literal& each : member.set) options.sets.push_back(each.path + "=" + each.text);
-  if (member.parent)
-    options.sets.push_back(fmt::format("{}='{}'", member.into, last_snapshot(all[*member.parent]).string()));
+  if (!member.parent) return options;
+  if (const auto dot = member.into.rfind('.'); dot != std::string::npos)
+    options.sets.push_back(member.into.substr(0, dot) + ".shape=");  // a body has a list or a shape
+  options.sets.push_back(fmt::format("{}='{}'", member.into, last_snapshot(all[*member.parent]).string()));
   return options;
 }
 

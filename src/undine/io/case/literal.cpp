@@ -29,7 +29,9 @@ std::string one_line(const toml::node& node) {
     text << "]";
   } else if (const auto* real = node.as_floating_point()) {
     text << fmt::format("{}", real->get());
-  } else if (const auto* string = node.as_string()) {
+  } else if (const auto* string = node.as_string(); string && string->get().empty()) {
+    return {};  // takes the key out of the other document
+  } else if (string) {
     text << toml::toml_formatter{*string,
                                  toml::toml_formatter::default_flags & ~toml::format_flags::allow_multi_line_strings};
   } else {

@@ -86,7 +86,7 @@ class Table {
   /// A value on its way into another document, as TOML on one line: Document::set takes "path=text".
   struct Literal {
     std::string path;  ///< dotted key in the other document; empty for an element of an array
-    std::string text;  ///< "0.02", "'5 ms'", "[0, 1]"
+    std::string text;  ///< "0.02", "'5 ms'", "[0, 1]"; empty for an empty string, which takes the key out
     SourceLocation where;
   };
   /// The elements of an array, whatever they are.
