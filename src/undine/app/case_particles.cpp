@@ -35,7 +35,21 @@ ParticleList read_csv_list(const Table& table, const fs::path& file, int dimensi
   return list;
 }
 
-ParticleList read_snapshot_list(const Table& table, const fs::path& file, int dimensions) {
+/// Keeps the particles of one group, where the snapshot says which group each is of.
+void keep_group(ParticleList& list, const OwnedFrame& frame, Group group) {
+  const auto* groups = frame.find_integers("group");
+  if (!groups) return;
+  const auto kept = [&](auto& values) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < frame.particles; ++i)
+      if (groups->at(i) == static_cast<int>(group)) values[n++] = values[i];
+    values.resize(n);
+  };
+  kept(list.points);
+  for (auto& [name, values] : list.given) kept(values);
+}
+
+ParticleList read_snapshot_list(const Table& table, const fs::path& file, int dimensions, Group group) {
   const OwnedFrame frame = [&] {
     try {
       return read_snapshot(file);
@@ -59,6 +73,8 @@ ParticleList read_snapshot_list(const Table& table, const fs::path& file, int di
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t i = 0; i < frame.particles; ++i)
         list.given[std::string("v") + "xyz"[k]].push_back(v->data[i * n + k]);
+  keep_group(list, frame, group);
+  list.of_a_run = true;
   return list;
 }
 
@@ -91,10 +107,10 @@ fs::path existing_file(const Table& table, std::string_view key) {
   return file;
 }
 
-ParticleList read_particle_list(const Table& table, int dimensions) {
+ParticleList read_particle_list(const Table& table, int dimensions, Group group) {
   const fs::path file = existing_file(table, "particles");
-  ParticleList list =
-      file.extension() == ".csv" ? read_csv_list(table, file, dimensions) : read_snapshot_list(table, file, dimensions);
+  ParticleList list = file.extension() == ".csv" ? read_csv_list(table, file, dimensions)
+                                                 : read_snapshot_list(table, file, dimensions, group);
   check_values(table, file, list);
   return list;
 }

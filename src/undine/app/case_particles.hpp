@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "undine/engine/store.hpp"
 #include "undine/geometry/bounds.hpp"
 #include "undine/io/case/table.hpp"
 
@@ -12,12 +13,14 @@ namespace undine {
 struct ParticleList {
   std::vector<Vec3> points;  ///< m
   std::map<std::string, std::vector<double>>
-      given;  ///< columns vx, vy, vz (m/s), rho (kg/m^3) and m (kg), where the file has them
+      given;              ///< columns vx, vy, vz (m/s), rho (kg/m^3) and m (kg), where the file has them
+  bool of_a_run = false;  ///< from a snapshot: as a run left them
 };
 
-/// The file that key `particles` of a body's table names: comma-separated values (.csv) or a snapshot. Throws
-/// InputError with the place in the list or, where a list has none, in the case.
-ParticleList read_particle_list(const Table& table, int dimensions);
+/// The file that key `particles` of a body's table names: comma-separated values (.csv) or a snapshot, of which
+/// the particles of the body's group are taken. Throws InputError with the place in the list or, where a list has none,
+/// in the case.
+ParticleList read_particle_list(const Table& table, int dimensions, Group group);
 
 /// The file that a key names, which must exist. Throws InputError at the key.
 std::filesystem::path existing_file(const Table& table, std::string_view key);

@@ -41,8 +41,9 @@ struct Body {
   std::vector<Vec3> points;
   std::map<std::string, std::vector<double>> given;  ///< columns of a particle list: vx, vy, vz, rho, m
   Table table;
-  bool may_coincide = true;                         ///< points that a lattice laid are apart from each other
-  int motion = -1;                                  ///< of a wall: its number in WallPlan::motions
+  bool of_a_run = false;     ///< particles that a run left, which may be closer than any lattice lays them
+  bool may_coincide = true;  ///< points that a lattice laid are apart from each other
+  int motion = -1;           ///< of a wall: its number in WallPlan::motions
   std::shared_ptr<ReflectingSurface> surface = {};  ///< of a wall with a shape: that alone
 };
 
@@ -77,6 +78,7 @@ class Reader {
     connect_distance();
     connect_reflector();
     connect_ghosts();
+    setup_.walls = walls_;
     return std::move(setup_);
   }
 
@@ -87,7 +89,8 @@ class Reader {
   }
 
   void take_list(Body& body) {
-    auto list = read_particle_list(body.table, N);
+    auto list = read_particle_list(body.table, N, body.group);
+    body.of_a_run = list.of_a_run;
     body.points = std::move(list.points);
     body.given = std::move(list.given);
   }
@@ -190,12 +193,14 @@ class Reader {
     };
     if (shape && reflects) add_to(surface_);
     if (shape && pushes) add_to(pushing_);
+    const bool may_move = !placed.empty() || setup_.choice.wall_particles;
+    if (shape) add_to(walls_);
     if (setup_.choice.ghosts) {
       for (const char* key : {"displacement", "slide"})
         if (table.has(key))
           table.fail(key, "walls with ghosts do not move", "their mirrors stand still",
                      "choose another treatment, such as 'adami' or 'mdbc'");
-    } else if (!placed.empty() || setup_.choice.wall_particles) {
+    } else if (may_move) {
       body.motion = read_motion(table, placed);
     }
     if (shape) {
@@ -211,7 +216,7 @@ class Reader {
       if (!setup_.bodies.emplace(body.name, no_body).second)
         table.fail("name", fmt::format("two bodies are named '{}'", body.name), {}, "give each its own name");
     }
-    if (shape && fluid_side == Side::inside) container_.include(shape->bounds());
+    if (shape && fluid_side == Side::inside) setup_.container.include(shape->bounds());
     unused(table, {"reflects", "sheet", "layers", "thin"});
     if (has_list) {
       take_list(body);
@@ -314,12 +319,15 @@ class Reader {
     const auto points = [&](std::size_t b) -> const std::vector<Vec3>& {
       return periodic ? wrapped[b] : bodies_[b].points;
     };
-    const double closest = 0.5 * setup_.spacing;
+    const auto closest = [&](const Body& a, const Body& b) {
+      return (a.of_a_run || b.of_a_run ? 1e-6 : 0.5 * (1 - 1e-6)) * setup_.spacing;  // half a spacing is fine
+    };
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      if (bodies_[b].may_coincide) complain_of(check_overlap(points(b), closest), bodies_[b], bodies_[b]);
+      if (bodies_[b].may_coincide)
+        complain_of(check_overlap(points(b), closest(bodies_[b], bodies_[b])), bodies_[b], bodies_[b]);
       for (std::size_t a = 0; a < b; ++a)
         if (bodies_[a].group == Group::fluid)
-          complain_of(check_overlap(points(a), points(b), closest), bodies_[a], bodies_[b]);
+          complain_of(check_overlap(points(a), points(b), closest(bodies_[a], bodies_[b])), bodies_[a], bodies_[b]);
     }
   }
 
@@ -359,7 +367,7 @@ class Reader {
     Bounds all;
     for (const auto& body : bodies_)
       for (const auto& p : body.points) all.include(p);
-    if (!container_.empty()) all.include(container_);
+    if (!setup_.container.empty()) all.include(setup_.container);
     const Table table = root_.table("domain");
     double extent = setup_.options.support.uniform;  // some room even around a single point
     for (int k = 0; k < N; ++k)
@@ -671,9 +679,9 @@ class Reader {
   CaseSetup<N> setup_;
   std::vector<Body> bodies_;
   std::map<std::string, std::vector<Expression>> velocities_;
-  Bounds container_;
   GhostWalls<N> ghosts_;
-  std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();
+  std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();  ///< what reflects
+  std::shared_ptr<ReflectingSurface> walls_ = std::make_shared<ReflectingSurface>();    ///< every wall
   std::shared_ptr<ReflectingSurface> pushing_ = std::make_shared<ReflectingSurface>();
   double fastest_wall_ = 0;  ///< m/s, until time.end
 };

@@ -20,10 +20,12 @@ struct CaseSetup {
   Store<N> store;
   WeaklyCompressibleOptions<N> options;
   SchemeChoice choice;
-  std::map<std::string, int> bodies;  ///< name and number of each wall of particles
-  std::vector<int> body_of_id;        ///< body of each particle, by its id
-  Vec<N> potential_origin{};          ///< where E_pot is zero
-  double expected_speed = 0;          ///< m/s
+  std::map<std::string, int> bodies;               ///< name and number of each wall of particles
+  std::vector<int> body_of_id;                     ///< body of each particle, by its id
+  Vec<N> potential_origin{};                       ///< where E_pot is zero
+  double expected_speed = 0;                       ///< m/s
+  std::shared_ptr<const ReflectingSurface> walls;  ///< the surfaces of all walls, also of those that do not reflect
+  Bounds container;                                ///< of all walls with the fluid inside, m; empty if there are none
   std::vector<std::string> warnings;
 };
 

@@ -1,65 +1,15 @@
 #pragma once
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "undine/core/catalogue.hpp"
-#include "undine/io/case/table.hpp"
-#include "undine/io/time_series.hpp"
-#include "undine/schemes/weakly_compressible.hpp"
+#include "undine/app/gauges/comparison.hpp"
+#include "undine/app/gauges/gauge.hpp"
 
 namespace undine {
-
-/// What gauges must know of the case besides their own table.
-template <int N>
-struct GaugeContext {
-  double spacing = 0;   ///< of the particles, m
-  double interval = 0;  ///< time between samples where a gauge does not say, s
-  Vec<N> gravity{};     ///< m/s^2
-  Domain<N> domain = Domain<N>::unbounded();
-  std::map<std::string, int> bodies = {};  ///< numbers of the walls that have a name
-  std::vector<int> body_of_id =
-      {};  ///< body of each particle, by particle id; may be empty for a check of the case alone
-};
-
-/// One instrument: it reads the run and changes nothing.
-template <int N>
-class Gauge {
- public:
-  virtual ~Gauge() = default;
-  /// What `read` gives, without the time.
-  virtual std::vector<SeriesColumn> columns() const = 0;
-  /// One value per column, in SI units; NaN where there is nothing to measure.
-  virtual std::vector<double> read(const WeaklyCompressible<N>& flow) const = 0;
-  /// Whether field acc of the walls must hold the forces from the fluid before `read`.
-  virtual bool needs_wall_forces() const { return false; }
-};
-
-/// Numbers over time, ascending (s); values may be NaN.
-struct Samples {
-  std::vector<double> times, values;
-};
-
-/// How a gauge's column agrees with published data, over the times that both cover. NaN where there is no such time.
-struct Comparison {
-  std::string gauge = {}, column = {}, unit = {};
-  double rms = 0;                  ///< of ours (linear between samples) minus the reference, at the reference's times
-  double range = 0;                ///< max - min of the reference
-  double relative = 0;             ///< rms / range
-  double peak = 0, peak_time = 0;  ///< largest of our samples; s
-  double reference_peak = 0, reference_peak_time = 0;  ///< largest of the reference's; s
-  std::size_t points = 0;                              ///< of the reference that were compared
-};
-
-/// Compares two series up to the time `until` (s). Values that are not finite do not count.
-Comparison compare(const Samples& ours, const Samples& reference, double until);
-
-/// The comparisons as aligned lines under a header; empty if there are none.
-std::string comparison_table(std::span<const Comparison> comparisons);
 
 /// The gauge types that a case file can name, for `undine list gauges`.
 std::vector<Info> gauge_infos();
@@ -84,6 +34,12 @@ class GaugeSet {
   std::vector<Comparison> compare() const;
 
   std::size_t size() const { return entries_.size(); }
+  /// Name of each gauge, and the columns of its file, time included.
+  std::vector<std::pair<std::string, std::vector<SeriesColumn>>> files() const {
+    std::vector<std::pair<std::string, std::vector<SeriesColumn>>> all;
+    for (const Entry& entry : entries_) all.emplace_back(entry.name, file_columns(*entry.gauge));
+    return all;
+  }
 
  private:
   struct Reference {

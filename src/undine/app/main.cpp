@@ -9,6 +9,7 @@
 #include "undine/app/exact.hpp"
 #include "undine/app/lists.hpp"
 #include "undine/app/run_options.hpp"
+#include "undine/app/study/study.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/io/checksum.hpp"
@@ -23,6 +24,20 @@ void add_case_options(CLI::App& command, RunOptions& options) {
   command.add_option("--set", options.sets, "override a key: --set time.end=\"2 s\"")->allow_extra_args(false);
   command.add_option("--threads", options.threads, "threads; 0: all cores")->check(CLI::Range(0, 1024));
   command.add_option("--out", options.out, "output folder");
+}
+
+void add_study_options(CLI::App& command, StudyOptions& options) {
+  command.add_option("study", options.file, "study file (TOML)")->required();
+  command.add_option("--out", options.out, "output folder; out/NAME unless given");
+  command.add_option("--set", options.sets, "override a key in every member: --set time.end=\"2 s\"")
+      ->allow_extra_args(false);
+  command.add_option("--only", options.only, "run only the members whose name fits this pattern (* and ?)");
+  command.add_option("--jobs", options.jobs, "members at a time; 0: as many as there are cores")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--quick", options.quick, "the reduced study of the file's [quick]");
+  command.add_flag("--dry-run", options.dry_run, "list the members with particles, steps and estimated time");
+  command.add_flag("--again", options.again, "also run members that are finished");
+  command.add_flag("--json", options.json, "progress as one JSON object per line");
 }
 
 int execute(int argc, char** argv) {
@@ -44,6 +59,10 @@ int execute(int argc, char** argv) {
   RunOptions check_options;
   auto* check = app.add_subcommand("check", "read a case with everything it names, and say what it resolves to");
   add_case_options(*check, check_options);
+
+  StudyOptions study_options;
+  auto* study = app.add_subcommand("study", "run a family of cases and judge it in one table");
+  add_study_options(*study, study_options);
 
   std::string axis, name;
   bool list_json_flag = false, markdown = false;
@@ -93,6 +112,7 @@ int execute(int argc, char** argv) {
   run_options.verbosity = json ? Verbosity::json : quiet ? Verbosity::quiet : Verbosity::normal;
   if (run->parsed()) return run_case(run_options);
   if (check->parsed()) return check_case(check_options);
+  if (study->parsed()) return run_study(study_options);
   if (list->parsed()) {
     if (axis.empty()) {
       fmt::print("{}", markdown ? docs_tables() : list_axes());

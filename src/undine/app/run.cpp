@@ -11,11 +11,11 @@
 
 #include "undine/app/case_setup.hpp"
 #include "undine/app/gauges.hpp"
+#include "undine/app/gauges/context.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/app/run_output.hpp"
 #include "undine/core/error.hpp"
 #include "undine/integrators/catalogue.hpp"
-#include "undine/io/checksum.hpp"
 #include "undine/io/output_folder.hpp"
 #include "undine/io/run_record.hpp"
 #include "undine/schemes/presets.hpp"
@@ -29,34 +29,6 @@ void on_signal(int) { interrupted = true; }
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The part of a case that must be the same for a checkpoint to fit: all but how long it runs and what it writes.
-std::string case_hash(const Document& document) {
-  Hash64 hash;
-  for (const auto& [key, value] : document.resolved()) {
-    if (key.starts_with("output") || key.starts_with("gauge") || key == "time.end" || key == "time.largest_step" ||
-        key == "title")
-      continue;
-    const std::string line = key + "=" + value + "\n";
-    hash.add_values(std::span<const char>(line));
-  }
-  return hash.text();
-}
-
-OutputPlan read_output(const Table& root, const RunOptions& options, double end) {
-  const Table table = root.table("output");
-  OutputPlan plan;
-  const std::string folder = table.text("folder", (std::filesystem::path("out") / options.file.stem()).string());
-  plan.folder = options.out.empty() ? std::filesystem::path(folder) : options.out;
-  plan.snapshots = table.non_negative("snapshots", unit::time, end / 20);
-  plan.energies = table.non_negative("energies", unit::time, end / 200);
-  plan.checkpoints = table.non_negative("checkpoints", unit::time, end / 5);
-  std::vector<std::string> names;
-  for (const auto& field : all_fields) names.emplace_back(field.name);
-  for (const auto& name : table.choices("fields", names, {"v", "rho", "p", "m"}))
-    plan.fields.push_back(static_cast<int>(std::ranges::find(names, name) - names.begin()));
-  return plan;
-}
-
 /// One run of N dimensions, from the document to the report.
 template <int N>
 class Run {
@@ -66,9 +38,7 @@ class Run {
         options_(options),
         setup_(read_case<N>(document.root())),
         output_(read_output(document.root(), options, setup_.choice.end)),
-        gauges_(document.root(),
-                GaugeContext<N>{setup_.spacing, output_.energies > 0 ? output_.energies : setup_.choice.end / 200,
-                                setup_.options.gravity, setup_.domain, setup_.bodies, setup_.body_of_id}) {
+        gauges_(document.root(), gauge_context(setup_, output_)) {
     for (const int f : output_.fields) setup_.options.kept.set(static_cast<std::size_t>(f));
     document.finish();
     hash_ = case_hash(document);

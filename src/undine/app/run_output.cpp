@@ -7,9 +7,35 @@
 #include <fmt/format.h>
 
 #include "undine/core/error.hpp"
+#include "undine/io/checksum.hpp"
 
 namespace undine {
 namespace {
+
+const std::vector<std::string> energy_comments{
+    "kinetic, potential, elastic: energies of the fluid; the next columns: what each term took out of them since t = 0",
+    "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching "
+    "compression;",
+    "walls: given to walls; xsph: moved against gravity by XSPH; body: given to imposed fields",
+    "total: their sum; residual = total - total at t = 0; residual_relative: of the initial potential energy (or the "
+    "largest energy)",
+    "strain_dissipation: integral of 2 mu D:D over fluid and time; saalfeld_dissipation: integral of mu D:D over the "
+    "fluid, as printed in his eq. 51;",
+    "both 0 unless output.strain_dissipation = true"};
+
+}  // namespace
+
+std::string case_hash(const Document& document) {
+  Hash64 hash;
+  for (const auto& [key, value] : document.resolved()) {
+    if (key.starts_with("output") || key.starts_with("gauge") || key == "time.end" || key == "time.largest_step" ||
+        key == "title")
+      continue;
+    const std::string line = key + "=" + value + "\n";
+    hash.add_values(std::span<const char>(line));
+  }
+  return hash.text();
+}
 
 std::vector<SeriesColumn> energy_columns() {
   return {{"time", "s"},
@@ -32,18 +58,20 @@ std::vector<SeriesColumn> energy_columns() {
           {"saalfeld_dissipation", "W"}};
 }
 
-const std::vector<std::string> energy_comments{
-    "kinetic, potential, elastic: energies of the fluid; the next columns: what each term took out of them since t = 0",
-    "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching "
-    "compression;",
-    "walls: given to walls; xsph: moved against gravity by XSPH; body: given to imposed fields",
-    "total: their sum; residual = total - total at t = 0; residual_relative: of the initial potential energy (or the "
-    "largest energy)",
-    "strain_dissipation: integral of 2 mu D:D over fluid and time; saalfeld_dissipation: integral of mu D:D over the "
-    "fluid, as printed in his eq. 51;",
-    "both 0 unless output.strain_dissipation = true"};
-
-}  // namespace
+OutputPlan read_output(const Table& root, const RunOptions& options, double end) {
+  const Table table = root.table("output");
+  OutputPlan plan;
+  const std::string folder = table.text("folder", (std::filesystem::path("out") / options.file.stem()).string());
+  plan.folder = options.out.empty() ? std::filesystem::path(folder) : options.out;
+  plan.snapshots = table.non_negative("snapshots", unit::time, end / 20);
+  plan.energies = table.non_negative("energies", unit::time, end / 200);
+  plan.checkpoints = table.non_negative("checkpoints", unit::time, end / 5);
+  std::vector<std::string> names;
+  for (const auto& field : all_fields) names.emplace_back(field.name);
+  for (const auto& name : table.choices("fields", names, {"v", "rho", "p", "m"}))
+    plan.fields.push_back(static_cast<int>(std::ranges::find(names, name) - names.begin()));
+  return plan;
+}
 
 bool due(double interval, double before, double now) {
   if (interval <= 0) return false;

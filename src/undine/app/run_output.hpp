@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "undine/app/run_options.hpp"
+#include "undine/io/case/document.hpp"
 #include "undine/io/checkpoint.hpp"
 #include "undine/io/snapshot.hpp"
 #include "undine/io/time_series.hpp"
@@ -19,6 +21,12 @@ struct OutputPlan {
   std::vector<int> fields;  ///< of snapshots, as in fields.def
 };
 
+/// Reads [output] for a run that ends at `end` (s).
+OutputPlan read_output(const Table& root, const RunOptions& options, double end);
+
+/// The part of a case that must be the same for a checkpoint to fit: all but how long it runs and what it writes.
+std::string case_hash(const Document& document);
+
 /// Whether a multiple of `interval` lies in (before, now]; also at the very start.
 bool due(double interval, double before, double now);
 
@@ -26,6 +34,9 @@ bool due(double interval, double before, double now);
 template <int N>
 Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
                std::vector<std::int32_t>& groups);
+
+/// The columns of energies.csv.
+std::vector<SeriesColumn> energy_columns();
 
 /// The energies of a run as a series, with the residual of the audit.
 template <int N>

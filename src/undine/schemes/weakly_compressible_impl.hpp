@@ -297,9 +297,8 @@ void WeaklyCompressible<N>::drift(double dt) {
       return *this;
     }
   };
-  if (options_.reflector || options_.pushed_out)
-    for (const auto& motion : options_.walls.motions)
-      if (motion.place_surface) motion.place_surface(motion.state(time_ + dt));
+  for (const auto& motion : options_.walls.motions)
+    if (motion.place_surface) motion.place_surface(motion.state(time_ + dt));
   const Work work = total_over(store_, Group::fluid, [&](std::size_t i) {
     const Vec<N> from = at[i];
     const Vec<N> moved = moves ? correction[i] : Vec<N>{};

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "undine/analysis/exact/catalogue.hpp"
-#include "undine/app/gauges.hpp"
+#include "undine/app/gauges/gauge.hpp"
 #include "undine/geometry/shape.hpp"
 
 namespace undine {

@@ -20,6 +20,17 @@ double finite(const Value& value, double number) {
   return number;
 }
 
+Expression parsed(const Value& value, const Expression::Constants& constants, const Expression::Variables& variables) {
+  if (const auto number = bare(value)) return Expression(*number);
+  const auto* string = value.node.as_string();
+  if (!string) value.wrong_type("a number or a formula", "\"0.1 * sin(2 * pi * x)\"");
+  try {
+    return Expression::parse(string->get(), constants, variables);
+  } catch (const InputError& error) {
+    value.refuse(fmt::format("'{}': {}", value.name, error.parts().what), error.parts().why, error.parts().fix);
+  }
+}
+
 }  // namespace
 
 void Value::refuse(std::string what, std::string why, std::string fix) const {
@@ -87,18 +98,13 @@ std::string as_choice(const Value& value, const std::vector<std::string>& valid)
 }
 
 Expression as_expression(const Value& value, const Expression::Constants& constants) {
-  if (const auto number = bare(value)) return Expression(*number);
-  const auto* string = value.node.as_string();
-  if (!string) value.wrong_type("a number or a formula", "\"0.1 * sin(2 * pi * x)\"");
-  try {
-    auto expression = Expression::parse(string->get(), constants);
-    if (expression.is_constant()) finite(value, expression(0, 0, 0, 0));
-    return expression;
-  } catch (const InputError& error) {
-    const auto& parts = error.parts();
-    if (parts.where.line != 0 || !parts.where.file.empty()) throw;  // located already
-    value.refuse(fmt::format("'{}': {}", value.name, parts.what), parts.why, parts.fix);
-  }
+  auto expression = parsed(value, constants, Expression::position_and_time());
+  if (expression.is_constant()) finite(value, expression(0, 0, 0, 0));
+  return expression;
+}
+
+Expression as_formula(const Value& value, const Expression::Variables& variables) {
+  return parsed(value, {}, variables);
 }
 
 }  // namespace undine

@@ -31,5 +31,7 @@ std::int64_t as_integer(const Value& value);
 std::string as_text(const Value& value);
 std::string as_choice(const Value& value, const std::vector<std::string>& valid);
 Expression as_expression(const Value& value, const Expression::Constants& constants);
+/// A number or a formula of those variables.
+Expression as_formula(const Value& value, const Expression::Variables& variables);
 
 }  // namespace undine

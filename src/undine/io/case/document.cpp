@@ -126,6 +126,22 @@ void assign(toml::node& parent, const PathStep& step, toml::node& value, std::st
   });
 }
 
+/// Removes the value at the end of the path, if it is there.
+void remove(toml::node& root, const std::vector<PathStep>& steps) {
+  toml::node* node = &root;
+  for (std::size_t k = 0; k + 1 < steps.size() && node; ++k) {
+    const PathStep& step = steps[k];
+    if (!step.key.empty()) {
+      node = node->is_table() ? node->as_table()->get(step.key) : nullptr;
+    } else if (node->is_array()) {
+      node = node->as_array()->get(step.index);
+    } else if (step.index != 0) {
+      node = nullptr;
+    }
+  }
+  if (node && node->is_table()) node->as_table()->erase(steps.back().key);
+}
+
 struct Unknown {
   SourceLocation where;
   std::string what;
@@ -233,6 +249,7 @@ void Document::set(std::string_view assignment) {
     bad_override(assignment, "an override needs a key and a value", "write --set key=value");
   const auto path = trim(assignment.substr(0, equals));
   const auto steps = split(path);
+  if (trim(assignment.substr(equals + 1)).empty()) return remove(state_->root, steps);
   auto value = override_value(trim(assignment.substr(equals + 1)), path);
   toml::node* node = &state_->root;
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) node = &descend(*node, steps[k], path);

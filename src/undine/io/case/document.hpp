@@ -25,7 +25,8 @@ class Document {
   static Document parse(std::string_view source, const std::filesystem::path& name);
 
   /// One override, "a.b=value" or "fluid[0].spacing=5 mm": the value is TOML, or else a plain string. Makes tables on
-  /// the way as needed. Errors on its value are reported at "--set a.b". Only before the first call of root().
+  /// the way as needed. Without a value, "a.b=", it takes the key out of the file. Errors on its value are reported at
+  /// "--set a.b". Only before the first call of root().
   /// @throws InputError if it has no '=', or an element of an array is asked for that does not exist.
   void set(std::string_view assignment);
 

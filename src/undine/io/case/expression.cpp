@@ -107,7 +107,8 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 /// Recursive descent over one expression; emits the program in the order of evaluation.
 class Compiler {
  public:
-  Compiler(std::string_view source, const Expression::Constants& constants) : source_(source), constants_(constants) {}
+  Compiler(std::string_view source, const Expression::Constants& constants, const Expression::Variables& variables)
+      : source_(source), constants_(constants), variables_(variables) {}
 
   std::vector<Step> compile() {
     if (source_.size() > Expression::longest_source)
@@ -143,7 +144,7 @@ class Compiler {
   }
 
   void check_name(const std::string& name) const {
-    const bool taken = name.size() == 1 && std::string_view("xyzte").find(name[0]) != std::string_view::npos;
+    const bool taken = name == "e" || std::ranges::count(variables_, name) > 0;
     const bool function =
         std::any_of(functions.begin(), functions.end(), [&](const auto& f) { return f.name == name; });
     if (!taken && !function && name != "pi") return;
@@ -289,9 +290,8 @@ class Compiler {
     const auto name = source_.substr(begin, at_ - begin);
     skip_spaces();
     if (peek() == '(') return call(name, begin);
-    static constexpr std::string_view variables = "xyzt";
-    if (const auto which = variables.find(name); name.size() == 1 && which != std::string_view::npos)
-      return emit(static_cast<Code>(static_cast<std::size_t>(Code::x) + which));
+    if (const auto which = std::ranges::find(variables_, name); which != variables_.end())
+      return emit(Code::variable, static_cast<double>(which - variables_.begin()));
     if (name == "pi") return emit(Code::constant, std::numbers::pi);
     if (name == "e") return emit(Code::constant, std::numbers::e);
     if (const auto found = constants_.find(name); found != constants_.end()) return emit(Code::constant, found->second);
@@ -302,8 +302,8 @@ class Compiler {
     const auto function =
         std::find_if(functions.begin(), functions.end(), [&](const auto& entry) { return entry.name == name; });
     if (function == functions.end()) {
-      const bool value = name == "x" || name == "y" || name == "z" || name == "t" || name == "pi" || name == "e" ||
-                         constants_.contains(name);
+      const bool value =
+          std::ranges::count(variables_, name) > 0 || name == "pi" || name == "e" || constants_.contains(name);
       if (value) fail(begin, fmt::format("'{}' is not a function", name), "write products with *");
       unknown(name, begin);
     }
@@ -324,7 +324,8 @@ class Compiler {
   }
 
   [[noreturn]] void unknown(std::string_view name, std::size_t begin) const {
-    std::vector<std::string> names{"x", "y", "z", "t", "pi", "e"}, calls;
+    std::vector<std::string> names = variables_, calls;
+    names.insert(names.end(), {"pi", "e"});
     for (const auto& [constant, value] : constants_) names.push_back(constant);
     for (const auto& function : functions) calls.emplace_back(function.name);
     auto all = names;
@@ -336,6 +337,7 @@ class Compiler {
 
   std::string_view source_;
   const Expression::Constants& constants_;
+  const Expression::Variables& variables_;
   std::vector<Step> program_;
   std::size_t at_ = 0;
   int depth_ = 0;
@@ -346,42 +348,40 @@ class Compiler {
 
 Expression::Expression(double constant) : program_{{Code::constant, constant}}, source_(fmt::format("{}", constant)) {}
 
-Expression Expression::parse(std::string_view source, const Constants& constants) {
+const Expression::Variables& Expression::position_and_time() {
+  static const Variables names{"x", "y", "z", "t"};
+  return names;
+}
+
+Expression Expression::parse(std::string_view source, const Constants& constants, const Variables& variables) {
   Expression result;
-  result.program_ = Compiler(source, constants).compile();
+  result.program_ = Compiler(source, constants, variables).compile();
   result.source_ = source;
-  result.uses_position_ = result.uses_time_ = false;
-  for (const auto& entry : result.program_) {
-    result.uses_position_ |= entry.code == Code::x || entry.code == Code::y || entry.code == Code::z;
-    result.uses_time_ |= entry.code == Code::t;
-  }
   return result;
 }
 
-double Expression::operator()(double x, double y, double z, double t) const {
+bool Expression::uses(std::size_t variable) const {
+  return std::ranges::any_of(program_, [&](const Step& step) {
+    return step.code == Code::variable && step.value == static_cast<double>(variable);
+  });
+}
+
+bool Expression::is_constant() const {
+  return std::ranges::none_of(program_, [](const Step& step) { return step.code == Code::variable; });
+}
+
+double Expression::evaluate(std::span<const double> variables) const {
   std::array<double, deepest + 3> stack;  // the three beyond let apply() read a full set of arguments anywhere
   double* top = stack.data();
   for (const auto& [code, value] : program_) {
-    switch (code) {
-      case Code::constant:
-        *top++ = value;
-        break;
-      case Code::x:
-        *top++ = x;
-        break;
-      case Code::y:
-        *top++ = y;
-        break;
-      case Code::z:
-        *top++ = z;
-        break;
-      case Code::t:
-        *top++ = t;
-        break;
-      default:
-        top -= arity(code);
-        *top = value_of(code, top);
-        ++top;
+    if (code == Code::constant) {
+      *top++ = value;
+    } else if (code == Code::variable) {
+      *top++ = variables[static_cast<std::size_t>(value)];
+    } else {
+      top -= arity(code);
+      *top = value_of(code, top);
+      ++top;
     }
   }
   return stack[0];

@@ -3,14 +3,15 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace undine {
 
-/// A formula of position x, y, z and time t (SI units), parsed once into a small stack program and then evaluated
-/// without allocation, from any number of threads.
+/// A formula of position x, y, z and time t (SI units), or of other variables by name, parsed once into a small stack
+/// program and then evaluated without allocation, from any number of threads.
 ///
 /// Operators, weakest first: < <= > >= == != (giving 0 or 1; not chained), + -, * /, unary -, ^ (also **; right to
 /// left). Functions: sin cos tan asin acos atan atan2 sinh cosh tanh sqrt exp log (natural, also ln) log10 abs sign
@@ -21,6 +22,7 @@ namespace undine {
 class Expression {
  public:
   using Constants = std::map<std::string, double, std::less<>>;
+  using Variables = std::vector<std::string>;  ///< names, in the order of the values that evaluate() takes
 
   static constexpr std::size_t longest_source = 4096;  ///< characters
   static constexpr int deepest = 64;                   ///< brackets within brackets, and values waiting on the stack
@@ -29,10 +31,19 @@ class Expression {
   Expression() : Expression(0.0) {}
   Expression(double constant);  // NOLINT(google-explicit-constructor): a plain number is an expression too
 
-  /// @throws InputError with the column within the expression; without a location.
-  static Expression parse(std::string_view source, const Constants& constants = {});
+  /// x, y, z, t
+  static const Variables& position_and_time();
 
-  double operator()(double x, double y, double z, double t) const;
+  /// @throws InputError with the column within the expression; without a location.
+  static Expression parse(std::string_view source, const Constants& constants = {},
+                          const Variables& variables = position_and_time());
+
+  double operator()(double x, double y, double z, double t) const {
+    const double values[]{x, y, z, t};
+    return evaluate(values);
+  }
+  /// One value for each variable that it was parsed with.
+  double evaluate(std::span<const double> variables) const;
 
   /// A value with its first and second derivative with respect to time.
   struct Rates {
@@ -42,9 +53,11 @@ class Expression {
   /// max, clamp, if, step, comparisons, sign, floor, ceil, mod) they are those of the branch that is taken.
   Rates rates(double x, double y, double z, double t) const;
 
-  bool is_constant() const { return !uses_position_ && !uses_time_; }
-  bool uses_position() const { return uses_position_; }
-  bool uses_time() const { return uses_time_; }
+  bool is_constant() const;
+  /// Whether the variable of that number occurs.
+  bool uses(std::size_t variable) const;
+  bool uses_position() const { return uses(0) || uses(1) || uses(2); }
+  bool uses_time() const { return uses(3); }
   /// As it was written.
   const std::string& source() const { return source_; }
   /// Steps of the compiled program; parts without variables are computed while parsing.
@@ -59,8 +72,6 @@ class Expression {
  private:
   std::vector<Step> program_;
   std::string source_;
-  bool uses_position_ = false;
-  bool uses_time_ = false;
 };
 
 }  // namespace undine

@@ -142,22 +142,14 @@ Rates apply(Code code, const Rates* v) {
 Expression::Rates Expression::rates(double x, double y, double z, double t) const {
   std::array<Rates, deepest + 3> stack;
   Rates* top = stack.data();
+  const std::array<Rates, 4> variables{{{x}, {y}, {z}, {t, 1}}};  // as position_and_time() orders them
   for (const auto& [code, constant] : program_) {
     switch (code) {
       case Code::constant:
         *top = {constant};
         break;
-      case Code::x:
-        *top = {x};
-        break;
-      case Code::y:
-        *top = {y};
-        break;
-      case Code::z:
-        *top = {z};
-        break;
-      case Code::t:
-        *top = {t, 1};
+      case Code::variable:
+        *top = variables.at(static_cast<std::size_t>(constant));
         break;
       default:
         top -= arity(code);

@@ -280,6 +280,20 @@ std::vector<Expression> Table::expressions(std::string_view key, int count, cons
   return read_expressions({*state_, id_, key}, count, &fallback, constants);
 }
 
+std::vector<std::string> Table::texts(std::string_view key) const {
+  return Access{*state_, id_, key}.read_all<std::string>(nullptr, -1, "\"text\"", as_text, shown_all<std::string>);
+}
+
+std::vector<std::string> Table::texts(std::string_view key, const std::vector<std::string>& fallback) const {
+  return Access{*state_, id_, key}.read_all<std::string>(&fallback, -1, "\"text\"", as_text, shown_all<std::string>);
+}
+
+Expression Table::formula(std::string_view key, const Expression::Variables& variables) const {
+  return Access{*state_, id_, key}.read<Expression>(
+      std::nullopt, "\"a + 2 * b\"", [&](const Value& v) { return as_formula(v, variables); },
+      [](const Expression& v) { return v.source(); });
+}
+
 Table Table::table(std::string_view key) const {
   const Access access{*state_, id_, key};
   const auto* node = access.find();

@@ -76,6 +76,24 @@ class Table {
   std::vector<Expression> expressions(std::string_view key, int count, const std::vector<Expression>& fallback,
                                       const Expression::Constants& constants = {}) const;
 
+  /// A formula of the given variables instead of x, y, z and t.
+  Expression formula(std::string_view key, const Expression::Variables& variables) const;
+
+  /// Strings of any kind.
+  std::vector<std::string> texts(std::string_view key) const;
+  std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& fallback) const;
+
+  /// A value on its way into another document, as TOML on one line: Document::set takes "path=text".
+  struct Literal {
+    std::string path;  ///< dotted key in the other document; empty for an element of an array
+    std::string text;  ///< "0.02", "'5 ms'", "[0, 1]"; empty for an empty string, which takes the key out
+    SourceLocation where;
+  };
+  /// The elements of an array, whatever they are.
+  std::vector<Literal> literals(std::string_view key) const;
+  /// Every value within the table `key`, by its path in there; none if the file lacks it.
+  std::vector<Literal> leaves(std::string_view key) const;
+
   /// A table within this one; an empty one if the file lacks it.
   Table table(std::string_view key) const;
   /// An array of tables ([[key]] or inline); a single table counts as one, a missing key as none.
