@@ -117,8 +117,9 @@ Crowd<N> make_crowd(const CrowdOptions& o, std::uint64_t seed = 1) {
     store.template get<field::p>()[i] = random.between(-1e4, 1e4);
     store.template get<field::c>()[i] = near(30, 0.1);
     store.template get<field::grad_rho_l>()[i] = random.vector<N>(1e3);
-    store.template get<field::v_friction>()[i] = random.vector<N>(1);
   }
+  Random other(seed + 1);  // of its own, so that the crowd stays what it was before there was this field
+  for (auto& u : store.template get<field::v_friction>()) u = other.vector<N>(1);
   return crowd;
 }
 
