@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "undine/app/approximate.hpp"
 #include "undine/app/bench.hpp"
 #include "undine/app/lists.hpp"
 #include "undine/app/run_options.hpp"
@@ -57,6 +58,11 @@ int execute(int argc, char** argv) {
       app.add_subcommand("checksum", "hash over all fields of a snapshot or checkpoint, in order of particle id");
   sum->add_option("file", file)->required();
 
+  ApproximateOptions approximate_options;
+  auto* approximate =
+      app.add_subcommand("approximate", "fields and derivatives at other points, from scattered points");
+  add_approximate_options(*approximate, approximate_options);
+
   BenchOptions bench_options;
   auto* bench = app.add_subcommand("bench", "time the hot loops on this machine");
   add_bench_options(*bench, bench_options);
@@ -86,6 +92,7 @@ int execute(int argc, char** argv) {
   }
   if (show->parsed()) fmt::print("{}", show_text(name));
   if (sum->parsed()) fmt::print("{}\n", checksum_file(file));
+  if (approximate->parsed()) return run_approximate(approximate_options);
   if (bench->parsed()) return run_bench(bench_options);
   return exit_ok;
 }
