@@ -9,6 +9,7 @@
 
 #include "undine/analysis/exact/catalogue.hpp"
 #include "undine/app/gauges.hpp"
+#include "undine/approximation/catalogue.hpp"
 #include "undine/backend/backend.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/fields.hpp"
@@ -106,6 +107,11 @@ Entry entry_of_type() {
   }
   if constexpr (requires { T::reflects; })
     entry.properties = {{"density", word(T::density, wall_density_words)}, {"reflects", T::reflects ? "yes" : "no"}};
+  if constexpr (requires { T::lowest_order; })
+    entry.properties = {
+        {"orders", T::lowest_order == T::highest_order ? fmt::format("{}", T::lowest_order)
+                                                       : fmt::format("{} to {}", T::lowest_order, T::highest_order)},
+        {"volumes", T::needs_volumes ? "yes" : "no"}};
   return entry;
 }
 
@@ -148,6 +154,7 @@ std::vector<Axis> make_axes() {
       axis_of<walls::Walls>("walls", "Wall treatments"),
       axis_of<terms::WallForces>("wall_forces", "Forces of wall particles apart from pressure"),
       axis_of<integrators::Integrators>("integrators", "Time integrators"),
+      axis_of<approximation::Methods>("approximations", "Approximation from scattered points (`undine approximate`)"),
       axis_of_infos("searches", "Neighbour searches", search_infos()),
       axis_of_words("backends", "Who runs the loops", backend_names, backend_titles),
       axis_of_words("precisions", "Number types of the pair arithmetic", precision_names, precision_titles),

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "undine/app/approximate.hpp"
 #include "undine/app/bench.hpp"
 #include "undine/app/bench_search.hpp"
 #include "undine/app/exact.hpp"
@@ -89,6 +90,10 @@ int execute(int argc, char** argv) {
   exact->add_option("--points", exact_options.points, "how many points it has (101)")->check(CLI::PositiveNumber);
   exact->add_option("--time", exact_options.time, "a number in s, or with a unit");
   exact->add_option("--out", exact_options.out, "a CSV file; without it the table is printed");
+  ApproximateOptions approximate_options;
+  auto* approximate =
+      app.add_subcommand("approximate", "fields and derivatives at other points, from scattered points");
+  add_approximate_options(*approximate, approximate_options);
 
   BenchOptions bench_options;
   auto* bench = app.add_subcommand("bench", "time the hot loops on this machine");
@@ -124,6 +129,7 @@ int execute(int argc, char** argv) {
   if (sum->parsed()) fmt::print("{}\n", checksum_file(file));
   if (bench_search->parsed()) return run_bench_search(bench_search_options);
   if (exact->parsed()) return run_exact(exact_options);
+  if (approximate->parsed()) return run_approximate(approximate_options);
   if (bench->parsed()) return run_bench(bench_options);
   return exit_ok;
 }
