@@ -58,7 +58,9 @@ SearchSet make_clustered(int particles) {
 void sort_by_space(SearchSet& set) {
   const std::span<const Vec<3>> points = set.points;
   Pencils<3> pencils;
-  pencils.build(CellFrame<3>(box_around(points), points.size(), set.radius, Domain<3>::unbounded()), points);
+  Workspace workspace;
+  pencils.build(CellFrame<3>(box_around(points), points.size(), set.radius, Domain<3>::unbounded()), points, {},
+                workspace);
   std::vector<Vec<3>> sorted;
   sorted.reserve(points.size());
   for (const auto k : pencils.order()) sorted.push_back(points[k]);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "undine/app/parameters.hpp"
 #include "undine/core/parameter.hpp"
 #include "undine/io/case/table.hpp"
 #include "undine/schemes/weakly_compressible_options.hpp"
@@ -25,18 +26,6 @@ struct SchemeChoice {
   int wall_layers = 0;          ///< 0: as many as the support needs
   std::vector<double> gravity;  ///< m/s^2, one per dimension
 };
-
-/// Reads the parameters of a term or an equation of state; the members' values are the defaults.
-template <class T>
-void read_parameters(const Table& table, T& owner) {
-  for_each_parameter<T>([&](const auto& parameter) {
-    const Dimension dimension = parameter.unit == "1" || parameter.unit == "SI"
-                                    ? unit::one
-                                    : parse_quantity("1 " + std::string(parameter.unit)).dimension;
-    owner.*parameter.member =
-        table.in_range(parameter.name, dimension, {parameter.low, parameter.high}, owner.*parameter.member);
-  });
-}
 
 /// Reads the scheme into options; `spacing` in m. Materials, reflector and body force are left to the particles'
 /// set-up.

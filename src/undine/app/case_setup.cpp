@@ -66,6 +66,7 @@ class Reader {
                         .why = "nothing would move",
                         .fix = "add a [[fluid]] with a shape"});
     for (const Table& t : fluids) read_fluid_points(t);
+    fluids_ = bodies_.size();
     for (const Table& t : root_.tables("wall")) read_wall(t);
     check_names();
     place_domain();
@@ -172,8 +173,7 @@ class Reader {
   }
 
   void read_wall(const Table& table) {
-    Body body{
-        table.text("name", fmt::format("wall{}", bodies_.size() + ghosts_.size())), Group::wall, 0, {}, {}, table};
+    Body body{table.text("name", fmt::format("wall{}", fluids_ + walls_read_++)), Group::wall, 0, {}, {}, table};
     const Table shape_table = table.table("shape");
     const Side fluid_side =
         table.choice("fluid", {"inside", "outside"}, "inside") == "inside" ? Side::inside : Side::outside;
@@ -393,6 +393,10 @@ class Reader {
       domain.periodic[k] = std::ranges::count(periodic, axes[k]) > 0;
       if (!(high[k] > low[k]))
         table.fail("high", fmt::format("the domain is empty along {}", axes[k]), {}, "make high larger than low");
+      if (domain.periodic[k] && setup_.options.gravity[k] != 0)
+        root_.fail("gravity",
+                   fmt::format("gravity acts along {}, where space repeats", axes[static_cast<std::size_t>(k)]),
+                   "a height has no end there, so that the energy audit could not close", "use body_force instead");
       const double reach = setup_.options.support.uniform * (1 + setup_.options.neighbours.skin);
       if (domain.periodic[k] && domain.length(k) < 2 * reach)
         table.fail(
@@ -400,6 +404,7 @@ class Reader {
             fmt::format("a particle would see its own image: twice the support with skin is {:.4g} m", 2 * reach),
             "widen the domain or lessen the support");
     }
+    setup_.options.lets_escape = table.choice("on_escape", {"stop", "remove"}, "stop") == "remove";
     for (const auto& body : bodies_)
       for (const auto& p : body.points)
         if (!domain.contains(narrow<N>(p)))
@@ -434,9 +439,23 @@ class Reader {
     if (setup_.choice.wall_force == walls::WallForce::repulsion) read_repulsion();
     for (const Table& table : fluids)
       setup_.options.materials.push_back(read_material(table, setup_.choice, setup_.expected_speed, setup_.warnings));
+    refuse_diffusion_of_fluids();
     // E_pot counts from the lowest place that fluid or wall reaches.
     const double g_sq = norm_sq(g);
     if (g_sq > 0) setup_.potential_origin = -(lowest / g_sq) * g;
+  }
+
+  /// Density diffusion knows one density at rest: between fluids of two it would take away what tells them apart.
+  void refuse_diffusion_of_fluids() const {
+    const auto& materials = setup_.options.materials;
+    if (!setup_.options.diffusion) return;
+    for (const auto& material : materials)
+      if (material.rho_0 != materials.front().rho_0)
+        root_.table("scheme").fail("density_diffusion",
+                                   fmt::format("density diffusion acts between '{}' and '{}', which differ in density",
+                                               materials.front().name, material.name),
+                                   "it would mix their densities, not their noise",
+                                   "set scheme.density_diffusion.form = \"none\"");
   }
 
   [[noreturn]] static void not_finite(const Table& table, std::string_view key, std::string_view name, const Vec3& p) {
@@ -559,7 +578,8 @@ class Reader {
       double rest = material.rho_0;
       if (!found.empty() && std::isfinite(surface))
         rest = material.density(material.rho_0 * std::max(0.0, strength * surface + dot(setup_.options.gravity, x[i])));
-      store.template get<field::rho>()[i] = rest;
+      const Body& body = bodies_[static_cast<std::size_t>(setup_.body_of_id[i])];
+      if (!body.given.contains("rho")) store.template get<field::rho>()[i] = rest;
       near_wall.find(x[i], H, found);
       store.template get<field::rho_wall>()[i] = wall_reference(material.rho_0, rest, wall_sum(i, found), lattice);
     }
@@ -574,7 +594,7 @@ class Reader {
 
   double kernel(const Vec<N>& d) const {
     const double H = setup_.options.support.uniform;
-    return setup_.options.kernels[0].template w<N>(norm(d) / H) / std::pow(H, N);
+    return setup_.options.kernels[static_cast<int>(KernelRole::density)].template w<N>(norm(d) / H) / std::pow(H, N);
   }
 
   double wall_sum(std::size_t i, const std::vector<std::uint32_t>& neighbours) const {
@@ -684,6 +704,7 @@ class Reader {
   std::shared_ptr<ReflectingSurface> walls_ = std::make_shared<ReflectingSurface>();    ///< every wall
   std::shared_ptr<ReflectingSurface> pushing_ = std::make_shared<ReflectingSurface>();
   double fastest_wall_ = 0;  ///< m/s, until time.end
+  std::size_t fluids_ = 0, walls_read_ = 0;
 };
 
 }  // namespace

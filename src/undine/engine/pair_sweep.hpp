@@ -46,7 +46,12 @@ class PairSweep {
   FieldSet reads() const {
     return std::apply([](const auto&... use) { return (reads_in_use(use) | ... | FieldSet{}); }, uses_);
   }
-  FieldSet target_reads() const { return (target_reads_of<typename Uses::Term>() | ...) & reads(); }
+  /// What it reads of its targets, also to book.
+  FieldSet target_reads() const {
+    FieldSet fields = (target_reads_of<typename Uses::Term>() | ...) & reads();
+    if (booking_ == Booking::on) fields |= Fields<field::m, field::v, field::p, field::rho>::set();
+    return fields;
+  }
   /// What the terms in use add.
   FieldSet adds() const { return adds_in_use(uses_); }
 

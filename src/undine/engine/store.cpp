@@ -89,7 +89,7 @@ template <int N>
 void Store<N>::keep(const FieldSet& fields) {
   fields_ &= fields;
   for (int f = 0; f < FieldId::count; ++f)
-    if (!fields_[f]) data_[f] = {};
+    if (!fields_[f]) data_[f] = std::vector<double>();  // assigning {} would keep the memory
 }
 
 template <int N>

@@ -10,20 +10,6 @@
 namespace undine {
 namespace detail {
 
-/// Where the numbers of one field begin among those of all fields of a list.
-template <int N, class Tag, class... F>
-constexpr int offset_of(Fields<F...>) {
-  int at = 0;
-  bool found = false;
-  ((found = found || std::is_same_v<F, Tag>, at += found ? 0 : F::info.components(N)), ...);
-  return at;
-}
-
-template <int N, class... F>
-constexpr int components_of(Fields<F...>) {
-  return (F::info.components(N) + ... + 0);
-}
-
 /// Power of a contribution to a rate: force times velocity for `acc` and `acc_wall`, m p / rho^2 times the rate for a
 /// density rate (the work that compression stores), nothing for any other field.
 template <class Tag, class Target, class Value>
@@ -87,10 +73,10 @@ class SweepLoop {
   /// The sums of all uses side by side; those of use I begin at `first_sum<I>`.
   template <std::size_t I>
   static constexpr int first_sum = []<std::size_t... J>(std::index_sequence<J...>) {
-    return (detail::components_of<N>(typename UseAt<J>::Term::adds{}) + ... + 0);
+    return (detail::record_numbers_of<N, double>(typename UseAt<J>::Term::adds{}) + ... + 0);
   }
   (std::make_index_sequence<I>{});
-  static constexpr int padded_sums = (first_sum<sizeof...(Uses)> + 3) / 4 * 4;
+  static constexpr int sum_count = detail::whole_groups(first_sum<sizeof...(Uses)>);
 
   static constexpr int usual = Layout::usual, extra = Layout::extra;
   /// Wide float packs have a loop of their own for the usual choices; each such loop takes a minute to compile.
@@ -166,7 +152,7 @@ class SweepLoop {
         if (!any_acts_on(source)) continue;
         const auto list = context_.neighbours.of(task.target, target, source, store, scratch);
         if (list.empty()) continue;
-        V sums[padded_sums]{};
+        V sums[sum_count]{};
         sum_over<path>(frame, source, a, list, sums);
         collect(source, sums, total, task.booking, book, power, std::index_sequence_for<Uses...>{});
       }
@@ -192,7 +178,7 @@ class SweepLoop {
 
   template <SweepPath path>
   [[gnu::always_inline]] static void sum_over(const Frame& frame, Group source, std::size_t a,
-                                              std::span<const std::uint32_t> list, V (&sums)[padded_sums]) {
+                                              std::span<const std::uint32_t> list, V (&sums)[sum_count]) {
     Real numbers[usual + extra]{};
     std::copy_n(frame.records + a * usual, usual, numbers);
     if (path != SweepPath::usual && frame.with_extra) std::copy_n(frame.extras + a * extra, extra, numbers + usual);
@@ -214,7 +200,7 @@ class SweepLoop {
   template <SweepPath path>
   [[gnu::always_inline]] static void one_block(const Frame& frame, unsigned acting, const Vec<N, Real>& x_a, Real h_a,
                                                const TargetRow& row_a, const std::uint32_t* block, int valid,
-                                               V (&sums)[padded_sums]) {
+                                               V (&sums)[sum_count]) {
     V numbers[usual + extra];
     detail::load_lanes<usual>(frame.records, block, numbers);
     if constexpr (path != SweepPath::usual) {
@@ -286,7 +272,7 @@ class SweepLoop {
   template <SweepPath path, std::size_t... I>
   [[gnu::always_inline]] static void evaluate(const Frame& frame, unsigned acting, const TargetRow& a,
                                               const SourceRow& b, const PairBase<N, V>& base, const V& inv_H,
-                                              V (&sums)[padded_sums], std::index_sequence<I...>) {
+                                              V (&sums)[sum_count], std::index_sequence<I...>) {
     // Most schemes use one kernel for all roles: it is then evaluated once.
     const V R = base.r * inv_H;
     const auto& kernels = frame.kernels;
@@ -313,10 +299,10 @@ class SweepLoop {
   }
 
   template <std::size_t I, class Row, class Mask>
-  [[gnu::always_inline]] static void add(const Row& row, const Mask& inside, V (&sums)[padded_sums]) {
+  [[gnu::always_inline]] static void add(const Row& row, const Mask& inside, V (&sums)[sum_count]) {
     using Added = typename UseAt<I>::Term::adds;
     Added::for_each([&]<class F>(F) __attribute__((always_inline)) {
-      constexpr int first = first_sum<I> + detail::offset_of<N, F>(Added{});
+      constexpr int first = first_sum<I> + detail::record_offset_of<N, F, double>(Added{});
       detail::for_each_indexed<first>(
           F::of(row), [&](auto k, const auto& number) __attribute__((always_inline)) {
             if constexpr (F::info.join == Join::max) {
@@ -330,16 +316,16 @@ class SweepLoop {
 
   /// Joins the lanes, adds to the totals, and books.
   template <std::size_t... I>
-  [[gnu::always_inline]] void collect(Group source, const V (&sums)[padded_sums], Totals& total, Booking booking,
+  [[gnu::always_inline]] void collect(Group source, const V (&sums)[sum_count], Totals& total, Booking booking,
                                       const BookRow& book, Powers& power, std::index_sequence<I...>) const {
-    Real joined_sums[padded_sums];
-    for (int k = 0; k < padded_sums; k += 4)
+    Real joined_sums[sum_count];
+    for (int k = 0; k < sum_count; k += 4)
       detail::sum_lanes(sums[k], sums[k + 1], sums[k + 2], sums[k + 3], joined_sums + k);
     const auto one = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) __attribute__((always_inline)) {
       if (!std::get<J>(uses_).acts_on(source)) return;
       using Added = typename UseAt<J>::Term::adds;
       Added::for_each([&]<class F>(F) __attribute__((always_inline)) {
-        constexpr int first = first_sum<J> + detail::offset_of<N, F>(Added{});
+        constexpr int first = first_sum<J> + detail::record_offset_of<N, F, double>(Added{});
         typename F::template value<N, double> joined{};
         detail::for_each_indexed<first>(
             joined, [&](auto k, double& number) __attribute__((always_inline)) {

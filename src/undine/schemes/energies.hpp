@@ -17,7 +17,7 @@ struct Energies {
     double artificial = 0;  ///< artificial viscosity between fluid particles
     double diffusion = 0;   ///< density diffusion
     double exchange = 0;    ///< pressure work not matched by compression: zero for matching pressure and density forms
-    double walls = 0;       ///< given to walls: wall particles and reflections
+    double walls = 0;       ///< given to walls of any kind, and what left the domain took along
     double xsph = 0;        ///< moved against gravity, or taken from the velocities, by XSPH
     double body = 0;        ///< given to imposed fields (body forces other than uniform gravity)
 

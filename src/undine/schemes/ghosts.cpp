@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "undine/core/error.hpp"
 #include "undine/engine/update.hpp"
 
 namespace undine {
@@ -24,6 +27,22 @@ void resize_walls(Store<N>& store, std::size_t n) {
 }  // namespace
 
 template <int N>
+Ghosts<N>::Ghosts(std::shared_ptr<const walls::Mirrors<N>> mirrors, const Domain<N>& domain)
+    : mirrors_(std::move(mirrors)), domain_(domain) {
+  if (mirrors_->count() > most_mirrors)
+    throw InputError({.what = fmt::format("walls with ghosts have {} faces, edges and corners", mirrors_->count()),
+                      .why = fmt::format("at most {} can be told apart", most_mirrors),
+                      .fix = "simplify the walls, or choose another treatment"});
+}
+
+/// Where a parent is, on that side of the period on which it was when its ghosts were made.
+template <int N>
+Vec<N> Ghosts<N>::parent_place(const Store<N>& store, std::size_t parent) const {
+  const Vec<N> then = store.template get<x_list>()[parent];
+  return then + domain_.nearest_image(store.template get<x>()[parent] - then);
+}
+
+template <int N>
 void Ghosts<N>::make(Store<N>& store, double reach) const {
   struct Ghost {
     std::size_t parent;
@@ -31,6 +50,8 @@ void Ghosts<N>::make(Store<N>& store, double reach) const {
   };
   const IndexRange fluid = store.range(Group::fluid);
   const auto at = store.template get<x>();
+  // As the build that follows will: mirrors are chosen for the places that it remembers.
+  for_each_particle(store, Group::fluid, [&](std::size_t i) { at[i] = domain_.wrapped(at[i]); });
   const std::size_t blocks = (fluid.size() + particles_per_block - 1) / particles_per_block;
   std::vector<std::vector<Ghost>> parts(blocks);
 #pragma omp parallel for schedule(dynamic)
@@ -91,7 +112,7 @@ void Ghosts<N>::follow(Store<N>& store) const {
   for_each_particle(store, Group::wall, [&](std::size_t i) {
     const std::size_t parent = parents_[i - first];
     const auto& mirror = mirrors_->mirror(mirror_of(ids[i]));
-    at[i] = mirror.image(at[parent]);
+    at[i] = mirror.image(parent_place(store, parent));
     u[i] = mirror.velocity(u[parent], mirrors_->slip());
     if (!support.empty()) support[i] = support[parent];
   });
@@ -102,7 +123,6 @@ void Ghosts<N>::answer(Store<N>& store, const Vec<N>& gravity, bool pulls,
                        const std::vector<materials::Material>& materials) const {
   const std::size_t first = store.range(Group::wall).begin;
   const auto ids = store.ids();
-  const auto at = store.template get<x>();
   const auto density = store.template get<rho>();
   const auto pressure = store.template get<p>();
   const auto sound = store.template get<c>();
@@ -111,7 +131,8 @@ void Ghosts<N>::answer(Store<N>& store, const Vec<N>& gravity, bool pulls,
     const auto& material = materials[store.materials()[i]];
     // The difference is taken from the mirror, not from the places, which may be a period apart.
     const auto& mirror = mirrors_->mirror(mirror_of(ids[i]));
-    const double carried = density[parent] * dot(gravity, mirror.image(at[parent]) - at[parent]);
+    const Vec<N> place = parent_place(store, parent);
+    const double carried = density[parent] * dot(gravity, mirror.image(place) - place);
     double answer = pressure[parent] + carried;
     if (!pulls) answer = std::max(answer, material.pressure(material.rho_0));
     pressure[i] = answer;

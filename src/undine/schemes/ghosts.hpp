@@ -15,7 +15,7 @@ namespace undine {
 template <int N>
 class Ghosts {
  public:
-  explicit Ghosts(std::shared_ptr<const walls::Mirrors<N>> mirrors) : mirrors_(std::move(mirrors)) {}
+  Ghosts(std::shared_ptr<const walls::Mirrors<N>> mirrors, const Domain<N>& domain);
 
   /// Replaces the wall group by the ghosts of all fluid particles nearer than `reach` to a wall.
   void make(Store<N>& store, double reach) const;
@@ -36,7 +36,10 @@ class Ghosts {
   static std::int64_t id_of(std::int64_t parent, int mirror) { return -1 - (parent * most_mirrors + mirror); }
   static std::int64_t parent_of(std::int64_t id) { return (-1 - id) / most_mirrors; }
 
+  Vec<N> parent_place(const Store<N>& store, std::size_t parent) const;
+
   std::shared_ptr<const walls::Mirrors<N>> mirrors_;
+  Domain<N> domain_;
   std::vector<std::uint32_t> parents_;      ///< index in the store, of each ghost
   std::vector<std::uint32_t> index_of_id_;  ///< of fluid particles; work space
 };

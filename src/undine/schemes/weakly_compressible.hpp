@@ -60,6 +60,8 @@ class WeaklyCompressible {
   double time() const { return time_; }
   const Plan& plan() const { return plan_; }
   long list_builds() const { return list_builds_; }
+  /// Fluid particles that left the domain and were taken out.
+  long escaped() const { return escaped_; }
   /// The sweeps of an evaluation by the loop that they run on, and why not on the usual one, for people.
   std::string describe_sweeps() const;
   /// Seconds spent: neighbour lists, pair sweeps.
@@ -101,7 +103,9 @@ class WeaklyCompressible {
     std::function<std::string()> unusual;
   };
   void refresh_lists();
-  void check_particles() const;
+  void check_particles();
+  void check_support() const;
+  void place_surfaces(double t) const;
   double largest_support() const;
   /// What every sweep reads of its particles.
   FieldSet place() const { return options_.rho_law ? Fields<field::x, field::h>::set() : Fields<field::x>::set(); }
@@ -127,7 +131,7 @@ class WeaklyCompressible {
   Vec<N> potential_origin_{};
   Energies::Ledger ledger_, ledger_start_;
   double strain_power_ = 0, strain_dissipated_ = 0;
-  long list_builds_ = 0;
+  long list_builds_ = 0, escaped_ = 0;
   double seconds_lists_ = 0, seconds_sweeps_ = 0;
 
   typename Sweeps::Force force_{"force", Group::fluid, Booking::on};

@@ -21,7 +21,7 @@ WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domai
       domain_(domain),
       options_(std::move(options)),
       neighbours_(domain_, options_.neighbours) {
-  if (options_.mirrors) ghosts_.emplace(options_.mirrors);
+  if (options_.mirrors) ghosts_.emplace(options_.mirrors, domain_);
   configure();
   make_plan();
   if (memory.empty()) {
@@ -48,9 +48,8 @@ void WeaklyCompressible<N>::configure() {
   if (options_.density != DensityForm::evolved) continuity.choose(terms::ContinuityForms::index<terms::Continuity>());
 
   const auto chosen = []<class Term>(const std::optional<Term>& term) { return term.value_or(Term{}); };
-  force_.template use<Sweeps::approach>() = {{}, true, {true, walls}, {}};
-  force_.template use<Sweeps::pressure>() = {options_.pressure, true, {true, walls}, {}};
-  force_.template use<Sweeps::continuity>() = {continuity, true, {true, walls}, {}};
+  force_.template use<Sweeps::pressure>().term = options_.pressure;
+  force_.template use<Sweeps::continuity>().term = continuity;
   force_.template use<Sweeps::artificial>() = {
       chosen(options_.artificial), options_.artificial.has_value(), {true, friction}, {}};
   force_.template use<Sweeps::diffusion>() = {chosen(options_.diffusion), diffuses(), {true, ghosts_diffuse}, {}};
@@ -126,7 +125,7 @@ void WeaklyCompressible<N>::make_plan() {
   const auto give = [&](bool needed, const FieldSet& fields) {
     if (needed) given_fields |= fields;
   };
-  give(walls || options_.rho_law, Fields<rho_0>::set());
+  give(walls || options_.repulsion || options_.rho_law, Fields<rho_0>::set());
   give(options_.wall_density == WallDensity::modified, Fields<rho_wall>::set());
   give(options_.viscosity || options_.strain_dissipation, Fields<mu>::set());
   give(options_.rho_law, Fields<h>::set());
@@ -134,7 +133,8 @@ void WeaklyCompressible<N>::make_plan() {
   for (const Group g : all_groups) given.add(g, given_fields);
   FieldSet used = given_fields | Fields<p, c, acc, drho, mu_cfl>::set();
   for (const auto& stage : plan_.stages()) used |= stage.reads.fields() | stage.writes.fields();
-  store_.keep(used | options_.kept);
+  // A run that goes on also has what integrators keep of a step.
+  store_.keep(used | options_.kept | Fields<acc_old, x_start, v_start, rho_start>::set());
   store_.allocate(used);
   // Terms that are not in use leave these at zero, and so do walls.
   given.add(Group::fluid, Fields<grad_rho_l>::set()).add(Group::wall, Fields<grad_rho_l, p, c>::set());
@@ -240,6 +240,7 @@ void WeaklyCompressible<N>::refresh_lists() {
   if (ghosts_) ghosts_->follow(store_);
   support_now_ = largest_support();
   if (!neighbours_.stale(store_, support_now_)) return;
+  check_support();
   check_particles();
   if (ghosts_) ghosts_->make(store_, support_now_ * (1 + options_.neighbours.skin));
   neighbours_.build(store_, support_now_);
@@ -247,12 +248,39 @@ void WeaklyCompressible<N>::refresh_lists() {
   ++list_builds_;
 }
 
+/// H that follows the density may outgrow what was checked when the case was read.
 template <int N>
-void WeaklyCompressible<N>::check_particles() const {
+void WeaklyCompressible<N>::check_support() const {
+  const double reach = support_now_ * (1 + options_.neighbours.skin);
+  for (int k = 0; k < N; ++k)
+    if (domain_.periodic[k] && domain_.length(k) < 2 * reach)
+      throw RunError(
+          {.what = fmt::format("H has grown to {:.4g} m at t = {:.6g} s, too large for the period of {:.4g} m",
+                               support_now_, time_, domain_.length(k)),
+           .why = "a particle would see another one and its image",
+           .fix = "widen the domain, or take a constant H (scheme.smoothing.law)"});
+  if (ghosts_ && support_now_ > options_.support.uniform * (1 + 1e-9))
+    throw RunError({.what = fmt::format("H has grown to {:.4g} m at t = {:.6g} s, from {:.4g} m", support_now_, time_,
+                                        options_.support.uniform),
+                    .why = "walls with ghosts were checked for gaps and thickness with the H of the start",
+                    .fix = "take a constant H (scheme.smoothing.law), or other walls"});
+}
+
+/// A fluid particle that left the domain ends the run, or leaves it with its energy.
+template <int N>
+void WeaklyCompressible<N>::check_particles() {
   const auto at = store_.template get<x>();
   const IndexRange fluid = store_.range(Group::fluid);
+  std::vector<char> gone;
   for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
-    if (domain_.contains(at[i]) && std::isfinite(norm_sq(at[i]))) continue;
+    const bool finite = std::isfinite(norm_sq(at[i]));
+    if (domain_.contains(at[i]) && finite) continue;
+    if (options_.lets_escape && finite) {
+      gone.resize(store_.size());
+      gone[i] = 1;
+      ++escaped_;
+      continue;
+    }
     std::string place;
     for (int k = 0; k < N; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", at[i][k]);
     throw RunError(
@@ -260,6 +288,12 @@ void WeaklyCompressible<N>::check_particles() const {
          .why = "it passed a wall, or was thrown out by a pressure that grew beyond bounds",
          .fix = "take a smaller time step, a larger speed of sound, a tight wall ('combined') or a larger [domain]"});
   }
+  if (gone.empty()) return;
+  const double before = energies().total();
+  store_.remove(gone);
+  const double taken = before - energies().total();
+  ledger_.walls += taken;
+  ledger_start_.walls += taken;  // which a step that goes back to its start returns to
 }
 
 template <int N>
@@ -297,8 +331,7 @@ void WeaklyCompressible<N>::drift(double dt) {
       return *this;
     }
   };
-  for (const auto& motion : options_.walls.motions)
-    if (motion.place_surface) motion.place_surface(motion.state(time_ + dt));
+  place_surfaces(time_ + dt);
   const Work work = total_over(store_, Group::fluid, [&](std::size_t i) {
     const Vec<N> from = at[i];
     const Vec<N> moved = moves ? correction[i] : Vec<N>{};
@@ -480,6 +513,7 @@ std::vector<double> WeaklyCompressible<N>::memory() const {
   const auto& l = ledger_;
   numbers.insert(numbers.end(), {l.viscous, l.artificial, l.diffusion, l.exchange, l.walls, l.xsph, l.body});
   for_each_booked_power(*this, [&](const Power& power) { numbers.insert(numbers.end(), power.begin(), power.end()); });
+  numbers.push_back(static_cast<double>(escaped_));
   return numbers;
 }
 
@@ -500,6 +534,8 @@ void WeaklyCompressible<N>::recall(const std::vector<double>& numbers) {
   });
   step_end_ = time_;
   support_now_ = largest_support();
+  escaped_ = static_cast<long>(*next++);
+  place_surfaces(time_);
 }
 
 }  // namespace undine

@@ -57,7 +57,8 @@ struct WeaklyCompressibleOptions {
   std::optional<OneOf<terms::DiffusionForms>> diffusion;
 
   walls::WallDensity wall_density = walls::WallDensity::none;
-  bool wall_pulls = false;  ///< whether evolved wall particles may fall below rho_0, and then pull on fluid that leaves
+  bool wall_pulls =
+      false;  ///< whether what walls answer may fall below the state at rest, and pull on fluid that leaves
   bool wall_friction = true;  ///< whether viscosities act between fluid and walls
   bool wall_no_slip = false;  ///< whether viscosities hold the fluid at the walls' surface, not only drag on it
   Reflector<N> reflector;     ///< empty: no elastic walls
@@ -73,7 +74,8 @@ struct WeaklyCompressibleOptions {
   Vec<N> gravity{};
   BodyForce<N> body_force;  ///< empty: gravity alone
 
-  FieldSet kept;  ///< of the set-up, besides those that the scheme needs
+  bool lets_escape = false;  ///< whether fluid that leaves the domain is taken out, instead of ending the run
+  FieldSet kept;             ///< of the set-up, besides those that the scheme needs
   Backend backend;
   typename Neighbours<N>::Options neighbours;
 };

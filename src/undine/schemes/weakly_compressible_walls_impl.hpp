@@ -59,7 +59,8 @@ void WeaklyCompressible<N>::add_mirror_stage() {
   if (holds()) writes.add(Group::wall, Fields<v_friction>::set());
   plan_.add({"wall mirror", reads, writes, [this] {
                const SweepContext<N> run = context();
-               const InterpolationSource<N> source{store_, neighbours_, domain_, run.kernels[0], run.support};
+               const InterpolationSource<N> source{store_, neighbours_, domain_,
+                                                   run.kernels[static_cast<int>(KernelRole::density)], run.support};
                const auto& walls = options_.walls;
                const auto at = store_.template get<x>();
                const auto own = store_.template get<v>();
@@ -81,6 +82,13 @@ template <int N>
 void WeaklyCompressible<N>::add_push_stages() {
   if (holds()) add_update("fluid friction velocity", Group::fluid, rules::TakeOwnVelocity{});
   add_sweep(push_, true);
+}
+
+/// What reflects, pushes or is asked for its depth is where its motion has it at t.
+template <int N>
+void WeaklyCompressible<N>::place_surfaces(double t) const {
+  for (const auto& motion : options_.walls.motions)
+    if (motion.place_surface) motion.place_surface(motion.state(t));
 }
 
 /// Walls are where their motion has them now.

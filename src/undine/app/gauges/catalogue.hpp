@@ -23,7 +23,7 @@ using GaugeTypes = Catalogue<  //
     Front<N>,                  //
     Extremes<N>,               //
     Leak<N>,                   //
-    WallMotion<N>,             //
+    WallJitter<N>,             //
     Coincidence<N>,            //
     MeanDensity<N>,            //
     CentreOfMass<N>,           //

@@ -13,7 +13,8 @@ template <int N>
 class Leak : public Gauge<N> {
  public:
   static constexpr Info info{"leak", "How much of the fluid is behind the walls",
-                             "count and share of particles with depth < -beyond spacing; how far the deepest is",
+                             "count and share of particles with depth < -beyond spacing, or taken out of the domain; "
+                             "how far the deepest is",
                              "Saalfeld (2012), table 4"};
 
   Leak(const Table& table, const GaugeContext<N>& context)
@@ -32,7 +33,10 @@ class Leak : public Gauge<N> {
       if (behind > limit_) ++leaked;
       deepest = std::max(deepest, behind);
     }
-    return {leaked, fluid.size() == 0 ? nan : leaked / static_cast<double>(fluid.size()), deepest};
+    // What left the domain had leaked before.
+    const auto escaped = static_cast<double>(flow.escaped()), all = static_cast<double>(fluid.size()) + escaped;
+    leaked += escaped;
+    return {leaked, all == 0 ? nan : leaked / all, deepest};
   }
 
  private:

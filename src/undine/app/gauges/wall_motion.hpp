@@ -8,13 +8,13 @@ namespace undine::gauges {
 
 /// How much the fluid beside the walls still moves: at rest this is the walls' own jitter.
 template <int N>
-class WallMotion : public Gauge<N> {
+class WallJitter : public Gauge<N> {
  public:
   static constexpr Info info{"wall_motion", "RMS speed of the fluid near the walls",
                              "sqrt(sum m |v|^2 / sum m) over the fluid within a distance of a wall's surface",
                              "Saalfeld (2012), 7.3: particles that tremble at the wall"};
 
-  WallMotion(const Table& table, const GaugeContext<N>& context) : walls_(context.walls) {
+  WallJitter(const Table& table, const GaugeContext<N>& context) : walls_(context.walls) {
     require_walls(table, context);
     within_ = context.support > 0 ? table.positive("within", unit::length, context.support)
                                   : table.positive("within", unit::length);
@@ -29,7 +29,7 @@ class WallMotion : public Gauge<N> {
     const auto m = flow.store().template get<field::m>();
     double mass = 0, sum = 0, count = 0;
     for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
-      if (!(walls_->depth(in_3d(x[i])) < within_)) continue;
+      if (!(std::abs(walls_->depth(in_3d(x[i]))) < within_)) continue;
       mass += m[i];
       sum += m[i] * norm_sq(v[i]);
       ++count;

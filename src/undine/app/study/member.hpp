@@ -37,6 +37,8 @@ struct Member {
   RunFacts facts = {};
 
   /// Whether running it again would give the same.
+  /// Whether there is something to measure; an interrupted run has not said its last.
+  bool measured() const { return outline && status != Status::waiting && status != Status::running; }
   bool done() const { return status == Status::finished || status == Status::went_bad; }
 };
 

@@ -66,8 +66,11 @@ void read_series(const Table& table, Quantity& quantity) {
   quantity.series = table.has("gauge") ? table.text("gauge") : "energies";
   quantity.take =
       static_cast<Take>(std::ranges::find(take_words, table.choice("take", take_words, "last")) - take_words.begin());
-  quantity.start = read_time(table, "start", 0);
-  quantity.end = read_time(table, "end", infinity);
+  quantity.end = infinity;
+  if (quantity.take != Take::deviation) {  // whose window is that of its reference
+    quantity.start = read_time(table, "start", 0);
+    quantity.end = read_time(table, "end", infinity);
+  }
   if (quantity.end < quantity.start)
     table.fail("end", "the window ends before it starts", {}, "make 'end' larger than 'start'");
   if (quantity.take == Take::ripple) quantity.period = table.positive("period", unit::time);

@@ -127,7 +127,12 @@ class Runner {
              fmt::format("'{}', which it starts from, has no last snapshot ({})", parent.name, word(parent.status)));
         return;
       }
-      resolve(member, members_);
+      try {
+        resolve(member, members_);
+      } catch (const Error& error) {
+        fail(member, error.what());
+        return;
+      }
       if (member.done() || member.status == Status::failed) {
         report_(member);
         return;
@@ -150,6 +155,8 @@ class Runner {
     Member& member = members_[index];
     const bool resume = member.status == Status::interrupted && has_checkpoint(member.folder);
     prepare_output_folder(member.folder, resume ? FolderMode::resume : FolderMode::overwrite);
+    if (!resume)  // what an earlier run left would pass for this one's if it died at once
+      for (const char* old : {"run.json", "energies.csv", "gauges"}) fs::remove_all(member.folder / old);
     auto words = run_words(member, members_);
     words.insert(words.begin(), "undine");
     words.emplace_back(resume ? "--resume" : "--overwrite");

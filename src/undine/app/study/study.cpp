@@ -141,6 +141,22 @@ class Progress {
 
 }  // namespace
 
+namespace {
+
+/// Members start from others in any order of the file.
+void resolve_all(std::vector<Member>& members) {
+  for (bool more = true; more;) {
+    more = false;
+    for (Member& member : members)
+      if (!member.outline && member.status != Status::failed && resolvable(member, members)) {
+        resolve(member, members);
+        more = true;
+      }
+  }
+}
+
+}  // namespace
+
 int run_study(const StudyOptions& options) {
   const Document document = Document::load(options.file);
   const StudyFile file = read_study(document, options.file, options.quick);
@@ -149,8 +165,7 @@ int run_study(const StudyOptions& options) {
                            : options.out;
   std::vector<Member> members = make_members(file, out, options.sets);
   choose(members, options.only);
-  for (Member& member : members)
-    if (resolvable(member, members)) resolve(member, members);
+  resolve_all(members);
   check_series(file, members);
   document.finish();
   if (options.again)

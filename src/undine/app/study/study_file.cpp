@@ -87,6 +87,17 @@ AxisValue read_value(const Table& table) {
   return value;
 }
 
+/// A value that starts from itself by way of others would never start.
+void refuse_cycle(const Table& table, const Axis& axis, const AxisValue& value) {
+  const AxisValue* at = &value;
+  for (std::size_t steps = 0; !at->from.empty(); ++steps) {
+    at = &*std::ranges::find(axis.values, at->from, &AxisValue::name);
+    if (steps > axis.values.size())
+      table.fail("value", fmt::format("'{}' starts from itself by way of '{}'", value.name, value.from), {},
+                 "leave one 'from' out");
+  }
+}
+
 Axis read_axis(const Table& table) {
   Axis axis{table.text("name"), {}};
   if (table.has("values")) {
@@ -113,6 +124,7 @@ Axis read_axis(const Table& table) {
     if (!value.from.empty() && (std::ranges::count(all, value.from) == 0 || value.from == value.name))
       table.fail("value", fmt::format("'{}' cannot start from '{}'", value.name, value.from),
                  "'from' names another value of the same axis: " + listed(all), did_you_mean(value.from, all));
+  for (const AxisValue& value : axis.values) refuse_cycle(table, axis, value);
   return axis;
 }
 
@@ -122,12 +134,8 @@ Selection read_selection(const Table& table, const std::vector<Axis>& axes) {
   for (std::size_t a = 0; a < axes.size(); ++a) {
     if (!table.has(axes[a].name)) continue;
     const auto valid = names_of(axes[a].values);
-    std::vector<std::string> chosen;
-    try {
-      chosen = table.choices(axes[a].name, valid);
-    } catch (const InputError&) {
-      chosen = {table.choice(axes[a].name, valid)};
-    }
+    const bool one = table.is_text(axes[a].name);
+    const auto chosen = one ? std::vector{table.choice(axes[a].name, valid)} : table.choices(axes[a].name, valid);
     for (const std::string& name : chosen)
       selection[a].push_back(static_cast<std::size_t>(std::ranges::find(valid, name) - valid.begin()));
   }

@@ -37,7 +37,7 @@ class Files {
 };
 
 double number_of(const Quantity& quantity, const std::vector<double>& values, Files& files, const Member& member) {
-  if (member.status == Status::waiting || member.status == Status::running) return nan;
+  if (!member.measured()) return nan;
   if (!quantity.fact.empty()) {
     const auto& names = RunFacts::names();
     return member.facts.values()[static_cast<std::size_t>(std::ranges::find(names, quantity.fact) - names.begin())];
@@ -54,19 +54,18 @@ double number_of(const Quantity& quantity, const std::vector<double>& values, Fi
 
 void add_published(Row& row, const StudyFile& study, const Member& member) {
   const std::size_t first = RunFacts::names().size() + study.axes.size();
-  const bool measured = member.status != Status::waiting && member.status != Status::running;
   for (const Published& published : study.published) {
     if (!holds(published.selection, member.choice)) continue;
     for (std::size_t k = 0; k < study.verdicts.size(); ++k)
       if (const auto found = published.verdicts.find(study.verdicts[k].name); found != published.verdicts.end()) {
         row.published[found->first] = found->second;
-        if (measured && row.verdicts[k] != not_measured) row.agrees[found->first] = row.verdicts[k] == found->second;
+        if (row.verdicts[k] != not_measured) row.agrees[found->first] = row.verdicts[k] == found->second;
       }
     for (std::size_t k = 0; k < study.quantities.size(); ++k)
       if (const auto found = published.quantities.find(study.quantities[k].name); found != published.quantities.end()) {
         row.published[found->first] = fmt::format("{:.6g}", found->second);
         const double ours = row.values[first + k];
-        if (published.within > 0 && std::isfinite(ours))
+        if (published.within > 0 && member.done() && std::isfinite(ours))
           row.agrees[found->first] = std::abs(ours - found->second) <= published.within * std::abs(found->second);
       }
     if (!published.reason.empty()) row.reasons.push_back(published.reason);
@@ -114,9 +113,8 @@ ResultTable tabulate(const StudyFile& study, const std::vector<Member>& members)
     Files files(member);
     for (const Quantity& quantity : study.quantities)
       row.values.push_back(number_of(quantity, row.values, files, member));
-    const bool measured = member.status != Status::waiting && member.status != Status::running;
     for (const Verdict& verdict : study.verdicts)
-      row.verdicts.push_back(measured && member.status != Status::failed ? judge(verdict, row.values) : not_measured);
+      row.verdicts.push_back(member.done() ? judge(verdict, row.values) : not_measured);
     add_published(row, study, member);
     table.rows.push_back(std::move(row));
   }

@@ -113,7 +113,7 @@ double take_from(const Quantity& q, const std::vector<double>& times, const std:
 
 double deviation(const ReferenceSeries& reference, const std::vector<double>& x, const std::vector<double>& y) {
   const Samples ours = finite({x, y});
-  if (ours.times.empty()) return nan;
+  if (ours.times.empty() || !std::ranges::is_sorted(ours.times)) return nan;
   const int trials = reference.shift > 0 ? 200 : 0;
   double best = rms_after_shift(reference, ours, 0);
   for (int k = -trials; k <= trials && trials > 0; ++k)

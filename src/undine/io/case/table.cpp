@@ -154,6 +154,13 @@ bool Table::has(std::string_view key) const {
   return node && node->contains(key);
 }
 
+bool Table::is_text(std::string_view key) const {
+  state_->know(id_, key);
+  const auto* node = state_->opened[id_].node;
+  const auto* value = node ? node->get(key) : nullptr;
+  return value && value->is_string();
+}
+
 bool Table::exists() const { return state_->opened[id_].node != nullptr; }
 
 std::vector<std::string> Table::keys() const {

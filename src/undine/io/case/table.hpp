@@ -32,6 +32,8 @@ class Table {
  public:
   /// Whether the file has this key. Makes the key a known one, but does not count as reading it.
   bool has(std::string_view key) const;
+  /// Whether the key holds text, where a list of texts may stand too.
+  bool is_text(std::string_view key) const;
   /// Whether the file has this table at all.
   bool exists() const;
   /// The keys in the file, in alphabetical order.
