@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 
 #include "undine/app/bench_flops.hpp"
 #include "undine/app/bench_measure.hpp"
+#include "undine/app/machine.hpp"
 #include "undine/core/pack.hpp"
 #include "undine/io/run_record.hpp"
 
@@ -21,15 +21,9 @@ namespace {
 constexpr int splash_particles = 100000;  ///< the one size of the splash unless the user names some
 constexpr int steps_per_snapshot = 100;
 
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(std::min(line.size(), line.find(':') + 2));
-  return "unknown processor";
-}
-
 std::string hardware() {
-  return fmt::format("{}, {} cores, vectors of {} bits", processor(), omp_get_num_procs(), 32 * lanes_of<Pack<float>>);
+  return fmt::format("{}, {} cores, vectors of {} bits", this_machine().processor, omp_get_num_procs(),
+                     32 * lanes_of<Pack<float>>);
 }
 
 BenchOptions filled(BenchOptions options) {

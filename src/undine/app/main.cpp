@@ -6,6 +6,8 @@
 
 #include "undine/app/bench.hpp"
 #include "undine/app/lists.hpp"
+#include "undine/app/picture/picture_command.hpp"
+#include "undine/app/report/report.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
@@ -36,6 +38,7 @@ int execute(int argc, char** argv) {
   add_case_options(*run, run_options);
   run->add_flag("--resume", run_options.resume, "go on from the newest checkpoint of the output folder");
   run->add_flag("--overwrite", run_options.overwrite, "replace an earlier run in the output folder");
+  run->add_flag("!--no-report", run_options.report, "write no report.html at the end");
   run->add_flag("--quiet", quiet, "print errors only");
   run->add_flag("--json", json, "progress as one JSON object per line");
 
@@ -56,6 +59,17 @@ int execute(int argc, char** argv) {
   auto* sum =
       app.add_subcommand("checksum", "hash over all fields of a snapshot or checkpoint, in order of particle id");
   sum->add_option("file", file)->required();
+
+  ReportOptions report_options;
+  auto* report = app.add_subcommand("report", "write a page that shows a run or a study, with everything in it");
+  report->add_option("folder", report_options.folder, "of a run or a study")->required();
+  report->add_option("-o,--out", report_options.out, "file; report.html in the folder unless said");
+  report->add_option("--max-mb", report_options.megabytes, "largest size in MB (20); what does not fit is thinned out")
+      ->check(CLI::Range(1.0, 1000.0));
+
+  PictureOptions picture_options;
+  auto* picture = app.add_subcommand("picture", "draw the particles of a run, as a picture or a movie");
+  add_picture_options(*picture, picture_options);
 
   BenchOptions bench_options;
   auto* bench = app.add_subcommand("bench", "time the hot loops on this machine");
@@ -86,6 +100,8 @@ int execute(int argc, char** argv) {
   }
   if (show->parsed()) fmt::print("{}", show_text(name));
   if (sum->parsed()) fmt::print("{}\n", checksum_file(file));
+  if (report->parsed()) return report_command(report_options);
+  if (picture->parsed()) return picture_command(picture_options);
   if (bench->parsed()) return run_bench(bench_options);
   return exit_ok;
 }

@@ -11,6 +11,8 @@
 
 #include "undine/app/case_setup.hpp"
 #include "undine/app/gauges.hpp"
+#include "undine/app/machine.hpp"
+#include "undine/app/report/report.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/app/run_output.hpp"
 #include "undine/core/error.hpp"
@@ -50,6 +52,7 @@ OutputPlan read_output(const Table& root, const RunOptions& options, double end)
   plan.snapshots = table.non_negative("snapshots", unit::time, end / 20);
   plan.energies = table.non_negative("energies", unit::time, end / 200);
   plan.checkpoints = table.non_negative("checkpoints", unit::time, end / 5);
+  plan.report = table.flag("report", true) && options.report;
   std::vector<std::string> names;
   for (const auto& field : all_fields) names.emplace_back(field.name);
   for (const auto& name : table.choices("fields", names, {"v", "rho", "p", "m"}))
@@ -119,6 +122,7 @@ class Run {
 
     const double resumed_at = checkpoint_ ? flow_->time() : -1;
     EnergySeries<N> energies(output_.folder, checkpoint_.has_value(), resumed_at);
+    StepSeries steps(output_.folder, checkpoint_.has_value(), resumed_at);
     SeriesFile series = checkpoint_ ? SeriesFile::resume(output_.folder / "particles.vtkhdf.series", resumed_at)
                                     : SeriesFile::create(output_.folder / "particles.vtkhdf.series");
     if (checkpoint_) {
@@ -142,7 +146,7 @@ class Run {
     int code = exit_ok;
     try {
       while (true) {
-        write_due(before, energies, series, step);
+        write_due(before, energies, steps, series, step);
         const bool last = flow_->time() >= setup_.choice.end * (1 - 1e-12) || interrupted;
         if (last || (due(output_.checkpoints, before, flow_->time()) && flow_->time() > 0)) write_checkpoint(energies);
         if (last) break;
@@ -158,12 +162,14 @@ class Run {
     } catch (const RunError&) {
       record("went bad", start, energies);
       if (options_.verbosity == Verbosity::normal) fmt::print(stderr, "\n");
+      report();
       throw;
     }
     if (interrupted) code = exit_interrupted;
     progress(start, step, true);
     record(interrupted ? "interrupted" : "finished", start, energies);
     summarise(start, energies);
+    if (!interrupted) report();
     return code;
   }
 
@@ -230,9 +236,13 @@ class Run {
     fmt::print("  neighbours  {}\n", flow_->neighbours().describe());
   }
 
-  void write_due(double before, EnergySeries<N>& energies, SeriesFile& series, const Step& step) {
+  void write_due(double before, EnergySeries<N>& energies, StepSeries& steps, SeriesFile& series, const Step& step) {
     const double now = flow_->time();
-    if (due(output_.energies, before, now)) energies.add(*flow_, step, step_);
+    if (due(output_.energies, before, now)) {
+      energies.add(*flow_, step, step_);
+      const auto& store = flow_->store();
+      steps.add(now, step_, step, store.range(Group::fluid).size(), store.range(Group::wall).size());
+    }
     gauges_.sample(*flow_);
     if (!due(output_.snapshots, before, now)) return;
     const auto watch = Clock::now();
@@ -299,6 +309,7 @@ class Run {
     Json resolved = Json::object();
     for (const auto& [key, value] : document_.resolved()) resolved[key] = value;
     const Energies e = flow_->energies();
+    const Machine machine = this_machine();
     Json stages = Json::array();
     for (const auto& stage : flow_->plan().stages())
       stages.push_back({{"name", stage.name}, {"reads", stage.reads.text()}, {"writes", stage.writes.text()}});
@@ -312,6 +323,11 @@ class Run {
                     {"warnings", setup_.warnings},
                     {"stages", stages},
                     {"threads", omp_get_max_threads()},
+                    {"machine",
+                     {{"processor", machine.processor},
+                      {"cores", machine.cores},
+                      {"memory_gb", machine.memory_gb},
+                      {"system", machine.system}}},
                     {"particles",
                      {{"fluid", flow_->store().range(Group::fluid).size()},
                       {"wall", flow_->store().range(Group::wall).size()}}},
@@ -351,6 +367,17 @@ class Run {
     const auto comparisons = gauges_.compare();
     if (!comparisons.empty()) fmt::print("\n{}", comparison_table(comparisons));
     fmt::print("results in {}\n", output_.folder.string());
+  }
+
+  /// The page that shows the run. A run is as good as ever without it.
+  void report() const {
+    if (!output_.report) return;
+    try {
+      const WrittenReport written = write_report({.folder = output_.folder, .out = {}});
+      if (options_.verbosity == Verbosity::normal) fmt::print("to look at in {}\n", written.file.string());
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "warning: no report was written: {}\n", error.what());
+    }
   }
 
   Document& document_;

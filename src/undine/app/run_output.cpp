@@ -43,6 +43,17 @@ const std::vector<std::string> energy_comments{
     "fluid, as printed in his eq. 51;",
     "both 0 unless output.strain_dissipation = true"};
 
+std::vector<SeriesColumn> step_columns() {
+  return {{"time", "s"}, {"step"}, {"dt", "s"}, {"limiter"}, {"fluid"}, {"wall"}};
+}
+
+std::vector<std::string> step_comments() {
+  std::string text = "dt: the step that was taken last; limiter: what limits it";
+  for (std::size_t k = 0; k < step_limiters.size(); ++k)
+    text += fmt::format("{} {} {}", k ? "," : ":", k, step_limiters[k]);
+  return {text + "; fluid, wall: numbers of particles"};
+}
+
 }  // namespace
 
 bool due(double interval, double before, double now) {
@@ -112,6 +123,16 @@ void EnergySeries<N>::add(const WeaklyCompressible<N>& flow, const Step& step, s
                        e.strain_dissipated,
                        0.5 * e.strain_power};
   series_.add(row);
+}
+
+StepSeries::StepSeries(const std::filesystem::path& folder, bool resume, double last_time)
+    : series_(resume ? TimeSeries::resume(folder / "steps.csv", step_columns(), last_time, step_comments())
+                     : TimeSeries::create(folder / "steps.csv", step_columns(), step_comments())) {}
+
+void StepSeries::add(double time, std::int64_t count, const Step& step, std::size_t fluid, std::size_t wall) {
+  const auto limiter = std::ranges::find(step_limiters, step.limiter) - step_limiters.begin();
+  series_.add(std::array{time, static_cast<double>(count), step.dt, static_cast<double>(limiter),
+                         static_cast<double>(fluid), static_cast<double>(wall)});
 }
 
 std::vector<std::filesystem::path> Checkpoints::files() const {

@@ -1,8 +1,11 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "undine/io/checkpoint.hpp"
@@ -17,6 +20,7 @@ struct OutputPlan {
   std::filesystem::path folder;
   double snapshots = 0, energies = 0, checkpoints = 0;
   std::vector<int> fields;  ///< of snapshots, as in fields.def
+  bool report = true;       ///< whether a page that shows the run is written at its end
 };
 
 /// Whether a multiple of `interval` lies in (before, now]; also at the very start.
@@ -44,6 +48,20 @@ class EnergySeries {
  private:
   TimeSeries series_;
   double start_total_ = 0, start_potential_ = 0;
+};
+
+/// What may limit a step, in the order of the numbers in steps.csv.
+inline constexpr std::array<std::string_view, 5> step_limiters{"fixed", "courant", "force", "viscous", "largest"};
+
+/// The steps of a run as a series, steps.csv: their size, what limited it, and how many particles there were.
+class StepSeries {
+ public:
+  /// Starts the file, or goes on with it after `last_time` (s).
+  StepSeries(const std::filesystem::path& folder, bool resume, double last_time);
+  void add(double time, std::int64_t count, const Step& step, std::size_t fluid, std::size_t wall);
+
+ private:
+  TimeSeries series_;
 };
 
 /// The last two checkpoints of a folder, by step.

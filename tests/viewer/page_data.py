@@ -1,0 +1,42 @@
+"""Reads what a report holds, as the page does, without a browser."""
+
+import base64
+import json
+import re
+import zlib
+
+import numpy
+
+TYPES = {"f32": "<f4", "f64": "<f8", "i32": "<i4", "u16": "<u2"}
+
+
+class Report:
+    def __init__(self, path):
+        with open(path, encoding="utf-8") as file:
+            self.text = file.read()
+        self.data = json.loads(re.search(r'<script type="application/json" id="undine-data">(.*?)</script>', self.text, re.S).group(1))
+        self.texts = {int(number): text for number, text in re.findall(r'<script type="text/plain" id="b(\d+)">([^<]*)</script>', self.text)}
+
+    def block(self, number):
+        """As decode() in viewer/src/data.ts; rows of components."""
+        info = self.data["blocks"][number]
+        shape = (info["count"], info["components"])
+        if "constant" in info:
+            row = [float("nan") if value is None else value for value in info["constant"]]
+            return numpy.broadcast_to(numpy.array(row), shape)
+        stored = numpy.dtype(TYPES[info["type"]])
+        raw = numpy.frombuffer(zlib.decompress(base64.b64decode(self.texts[number])), numpy.uint8)
+        values = raw.reshape(stored.itemsize, -1).T.copy().view(stored).reshape(shape)
+        if info["type"] != "u16":
+            return values
+        low, high = numpy.array(info["low"]), numpy.array(info["high"])
+        return numpy.where(values == 65535, numpy.nan, low + (high - low) * values / 65534)
+
+    def frame(self, k):
+        """ids, positions and fields of the particles at time k, groups one after the other."""
+        frame = self.data["particles"]["frames"][k]
+        join = lambda numbers: numpy.concatenate([self.block(number) for number in numbers])
+        ids = join([part["ids"] for part in frame["parts"]])[:, 0]
+        fields = {field["name"]: join([part["fields"][field["name"]] for part in frame["parts"]]) for field in self.data["particles"]["fields"]}
+        fields["x"] = join([part["x"] for part in frame["parts"]])
+        return frame["time"], ids, fields
