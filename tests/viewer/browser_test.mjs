@@ -5,28 +5,14 @@
 // PLAN.json: { flat, spatial, study: paths of reports, id, times }. Writes OUT/readings.json and screenshots. Fails on any
 // error that a page writes to its console.
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { openBrowser } from "./browser.mjs";
 
-const { chromium } = createRequire(new URL("../../viewer/package.json", import.meta.url))("playwright-core");
 const [, , executablePath, planFile, out] = process.argv;
 const plan = JSON.parse(readFileSync(planFile, "utf8"));
 const readings = {};
-
-const profile = mkdtempSync(join(tmpdir(), "undine_browser_"));
-const context = await chromium.launchPersistentContext(profile, {
-  executablePath, headless: true, acceptDownloads: true, viewport: { width: 1280, height: 900 }, offline: true,
-  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
-const page = await context.newPage();
-page.setDefaultTimeout(20_000);
-const complaints = [];
-// WebGL says how slow reading its pixels is; that is our screenshots' doing.
-page.on("console", (message) => { if (message.type() === "error" || (message.type() === "warning" && !/GPU stall|software WebGL/i.test(message.text()))) complaints.push(message.text()); });
-page.on("pageerror", (error) => complaints.push(String(error)));
+const { page, complaints, close } = await openBrowser(executablePath, { offline: true });
 
 const picture = (name) => page.screenshot({ path: join(out, `${name}.png`) });
 const settled = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 60)))));
@@ -114,9 +100,11 @@ try {
   // A click chooses the particle under it.
   await page.locator(".time input").fill("0");
   await timeIs(plan.times[0]);
-  const box = await page.locator(".stage canvas").first().boundingBox();
   await page.getByLabel("Particle", { exact: true }).fill("");
   await page.keyboard.press("Enter");
+  await page.locator(".stage").evaluate((stage) => stage.scrollIntoView({ block: "center" }));
+  await settled();
+  const box = await page.locator(".stage > canvas").boundingBox();
   search: for (let i = 1; i < 20; ++i) for (let j = 1; j < 12; ++j) {
     await page.mouse.click(box.x + (box.width * i) / 20, box.y + (box.height * j) / 12);
     if ((await page.getByLabel("Particle", { exact: true }).inputValue()) !== "") break search;
@@ -174,6 +162,5 @@ try {
   console.error(error.stack, "\nconsole:", complaints);
   process.exitCode = 1;
 } finally {
-  await context.close();
-  rmSync(profile, { recursive: true, force: true });
+  await close();
 }

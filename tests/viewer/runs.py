@@ -32,18 +32,19 @@ def study(folder, spacings):
         name = f"spacing_{spacing}"
         error = 4.0 * spacing**2
         members.append({
-            "name": name, "folder": name, "axes": {"spacing": spacing}, "status": "finished", "error": None,
+            "name": name, "folder": name, "axes": {"spacing": f"{spacing} m"}, "status": "finished", "error": "",
             "seconds": 0.5 * 4**k, "particles": 100 * 4**k, "steps": 50 * 2**k, "quantities": {"rms": error, "peak": 1.0},
-            "verdicts": {"small": error < 0.01}, "published": {"peak": 1.02}, "agrees": {"peak": True}})
+            "verdicts": {"small": "yes" if error < 0.02 else "no"}, "published": {"peak": "1.02", "small": "yes"},
+            "agrees": {"peak": True, "small": error < 0.02}, "reasons": [] if error < 0.02 else ["coarse"]})
     members.append({
-        "name": "broken", "folder": "broken", "axes": {"spacing": 0.001}, "status": "failed", "error": "<b>the step collapsed</b>",
+        "name": "broken", "folder": "broken", "axes": {"spacing": "0.001 m"}, "status": "failed", "error": "<b>the step collapsed</b>",
         "seconds": None, "particles": None, "steps": None, "quantities": {}, "verdicts": {}, "published": {}, "agrees": {}})
     record = {
         "title": "Still water </script><script>alert(1)</script>", "file": "still.toml",
-        "axes": [{"name": "spacing", "values": list(spacings) + [0.001]}],
+        "axes": [{"name": "spacing", "values": [f"{spacing} m" for spacing in spacings] + ["0.001 m"]}],
         "quantities": [{"name": "rms", "unit": "m", "meaning": "difference from rest"}, {"name": "peak", "unit": "Pa", "meaning": "pressure"}],
-        "verdicts": [{"name": "small", "rule": "rms < 0.01 m"}], "members": members,
-        "orders": [{"quantity": "rms", "axis": "spacing", "group": "", "order": 2.0}]}
+        "verdicts": [{"name": "small", "rule": "rms < 0.02 m"}], "members": members,
+        "orders": [{"quantity": "rms", "axis": "spacing", "group": {}, "order": 2.0}]}
     with open(os.path.join(folder, "study.json"), "w", encoding="utf-8") as file:
         json.dump(record, file, indent=1)
 

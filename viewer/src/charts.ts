@@ -24,9 +24,13 @@ export interface ChartSetup {
 const colours = ["--c0", "--c1", "--c2", "--c3", "--c4", "--c5", "--c6", "--c7"];
 const axisText = (name: string, unit?: string) => (unit ? `${name} [${unitText(unit)}]` : name);
 
-/** Ranges of logarithmic axes are whole decades around the data, or a little more than it where that is narrow. */
+/** Logarithmic axes begin and end at one digit, a little beyond the data: uPlot counts its lines from there. */
 function logRange(_: uPlot, low: number | null, high: number | null): uPlot.Range.MinMax {
-  return [Math.max(low ?? 1e-3, 1e-300) / 1.5, Math.max(high ?? 1, 1e-300) * 1.5];
+  const oneDigit = (value: number, round: (value: number) => number) => {
+    const size = 10 ** Math.floor(Math.log10(value));
+    return round(value / size) * size;
+  };
+  return [oneDigit(Math.max(low ?? 1e-3, 1e-300) / 1.1, Math.floor), oneDigit(Math.max(high ?? 1, 1e-300) * 1.1, Math.ceil)];
 }
 
 export class Chart {
@@ -67,7 +71,8 @@ export class Chart {
     const axis = (label: string, log: boolean | undefined): uPlot.Axis => ({
       label, stroke: css("--ink"), font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelSize: 22, labelGap: 2,
       grid: { stroke: css("--grid"), width: 1 }, ticks: { stroke: css("--grid"), width: 1 },
-      values: (_, splits) => splits.map((value) => (value === null || value === undefined ? "" : log && !/^[125]/.test(value.toExponential()) ? "" : number(value, 3))),
+      ...(log ? { filter: (_: uPlot, splits: number[]) => splits.map((value) => (/^[125]e/.test(Number(value.toPrecision(8)).toExponential()) ? value : null)) } : {}),
+      values: (_, splits) => splits.map((value) => (value === null || value === undefined ? "" : number(value, 3))),
     });
     const yAxis = axis(axisText(y.name, y.unit), y.log);
     yAxis.size = 62;

@@ -54,6 +54,7 @@ export interface Part {
 export interface FrameInfo {
   time: number;
   step: number;
+  /** None yet where they are asked for one time after the other. */
   parts: Part[];
   /** Of all fluid particles, also of those that are not on the page: magnitude first, then each component. */
   ranges: Record<string, [number, number][]>;
@@ -119,8 +120,9 @@ export interface Member {
   steps?: number | null;
   quantities: Record<string, number | null>;
   verdicts: Record<string, unknown>;
-  published?: Record<string, number | null>;
+  published?: Record<string, number | string | null>;
   agrees?: Record<string, unknown>;
+  reasons?: string[];
 }
 
 export interface Order {
@@ -151,7 +153,35 @@ export type PageData = RunData | StudyData;
 /** Where the page takes its data from. */
 export interface Source {
   data(): Promise<PageData>;
-  block(number: number): Promise<Float64Array | Float32Array | Int32Array>;
+  block(number: number): Promise<Numbers>;
+  /** A time with its parts, wherever they come from. */
+  frame(particles: Particles, number: number): Promise<FrameInfo>;
+  /** Where data come from a program that may tell more later. */
+  live?: Live;
+}
+
+export type Numbers = Float64Array | Float32Array | Int32Array;
+
+export interface Progress {
+  time: number;
+  end: number;
+  step: number;
+  rate: number;
+  remaining_s: number;
+}
+
+export interface State {
+  status: string;
+  times: number[];
+  progress: Progress | null;
+}
+
+export interface Live {
+  /** Whether the page goes on to each new snapshot. */
+  follow: boolean;
+  /** Particles of a frame at most. */
+  most: number;
+  state(): Promise<State>;
 }
 
 function bytesOf(base64: string): Uint8Array {
@@ -174,7 +204,7 @@ function unshuffle(bytes: Uint8Array, size: number): ArrayBuffer {
   return out.buffer;
 }
 
-export async function decode(info: BlockInfo, packed: () => Promise<Uint8Array>): Promise<Float64Array | Float32Array | Int32Array> {
+export async function decode(info: BlockInfo, text: () => string): Promise<Numbers> {
   const total = info.count * info.components;
   if (info.constant) {
     const out = info.type === "i32" ? new Int32Array(total) : info.type === "f64" ? new Float64Array(total) : new Float32Array(total);
@@ -182,7 +212,7 @@ export async function decode(info: BlockInfo, packed: () => Promise<Uint8Array>)
     return out;
   }
   const size = info.type === "f64" ? 8 : info.type === "u16" ? 2 : 4;
-  const buffer = unshuffle(await inflate(await packed()), size);
+  const buffer = unshuffle(await inflate(bytesOf(text())), size);
   if (buffer.byteLength !== total * size) throw new Error(`a block holds ${buffer.byteLength} bytes instead of ${total * size}`);
   if (info.type === "f64") return new Float64Array(buffer);
   if (info.type === "f32") return new Float32Array(buffer);
@@ -199,7 +229,7 @@ export async function decode(info: BlockInfo, packed: () => Promise<Uint8Array>)
 /** Data that lies in the page itself. */
 export class EmbeddedSource implements Source {
   private infos: BlockInfo[] = [];
-  private kept = new Map<number, Promise<Float64Array | Float32Array | Int32Array>>();
+  private kept = new Map<number, Promise<Numbers>>();
 
   static present(): boolean {
     return document.getElementById("undine-data") !== null;
@@ -211,12 +241,16 @@ export class EmbeddedSource implements Source {
     return data;
   }
 
-  block(number: number): Promise<Float64Array | Float32Array | Int32Array> {
+  block(number: number): Promise<Numbers> {
     const old = this.kept.get(number);
     this.kept.delete(number);  // and in again below, as the newest
-    const made = old ?? decode(this.infos[number], async () => bytesOf(document.getElementById(`b${number}`)!.textContent!));
+    const made = old ?? decode(this.infos[number], () => document.getElementById(`b${number}`)!.textContent!);
     this.kept.set(number, made);
     if (this.kept.size > 200) this.kept.delete(this.kept.keys().next().value!);
     return made;
+  }
+
+  async frame(particles: Particles, number: number): Promise<FrameInfo> {
+    return particles.frames[number];
   }
 }

@@ -23,7 +23,7 @@ async function joined(source: Source, frame: FrameInfo, components: number, bloc
 }
 
 export async function loadFrame(source: Source, particles: Particles, number: number): Promise<Frame> {
-  const info = particles.frames[number];
+  const info = await source.frame(particles, number);
   const n = particles.dimensions;
   const flat = await joined(source, info, n, (part) => part.x);
   const count = flat.length / n;

@@ -8,6 +8,8 @@ import { Legend } from "./legend";
 import { Scene } from "./scene";
 
 const framesPerSecond = 8;
+/** Diameter of a particle in spacings: more than one, so that a fluid has no gaps. */
+const diameterOf = (dimensions: number) => (dimensions < 3 ? 1.45 : 1.15);
 
 /** Against gravity; z, or y in a plane, where a case has none. */
 function upward(data: RunData, dimensions: number): Vector3 {
@@ -61,7 +63,7 @@ export class ParticlePanel {
     this.stage.append(this.legend.element);
     const [low, high] = [[...this.particles.low, 0, 0].slice(0, 3), [...this.particles.high, 0, 0].slice(0, 3)];
     try {
-      this.scene = new Scene(this.stage, { dimensions: this.particles.dimensions, low, high, spacing: this.particles.spacing, up: upward(data, this.particles.dimensions) });
+      this.scene = new Scene(this.stage, { dimensions: this.particles.dimensions, low, high, spacing: diameterOf(this.particles.dimensions) * this.particles.spacing, up: upward(data, this.particles.dimensions) });
     } catch (error) {
       this.stage.replaceChildren(h("p", { class: "note" }, `The particles cannot be drawn: this browser has no WebGL (${(error as Error).message}).`));
       return;
@@ -109,15 +111,22 @@ export class ParticlePanel {
       this.setClip({ axis, side });
     });
     clipSelect.classList.add("clip");
-    const size = h("input", { type: "range", min: 0.3, max: 2, step: 0.05, value: 1, "aria-label": "size of the particles", input: (event) => {
-      this.scene.setDiameter(this.particles.spacing * Number((event.target as HTMLInputElement).value));
+    const live = this.source.live;
+    const thick: [string, string][] = [200_000, 1_000_000, 5_000_000].map((most) => [String(most), `${number(most)} at most`]);
+    const mostSelect = live && this.particles.stored > live.most ? select([...thick, ["1000000000", "all"]], String(live.most), (value) => {
+      live.most = Number(value);
+      void this.show(this.at);
+    }) : null;
+    mostSelect?.classList.add("most");
+    const size = h("input", { type: "range", min: 0.25, max: 2, step: 0.05, value: 1, "aria-label": "size of the particles", input: (event) => {
+      this.scene.setDiameter(diameterOf(this.particles.dimensions) * this.particles.spacing * Number((event.target as HTMLInputElement).value));
       this.scene.render();
     } });
     return h("div", { class: "controls" },
       labelled("Colour by", fieldSelect), labelled("Colours", mapSelect), labelled("Range", rangeSelect),
       h("div", { class: "control pair" }, h("span", {}, "From, to"), h("div", {}, this.lowInput, this.highInput)),
       labelled("Walls", wallSelect), labelled("Cut away", clipSelect), labelled("Cut at", this.clipInput), labelled("Size", size),
-      labelled("Particle", this.idInput),
+      labelled("Particle", this.idInput), mostSelect && labelled("Particles shown", mostSelect),
       h("div", { class: "control buttons" },
         h("button", { type: "button", click: () => this.scene.reset() }, "Reset view"),
         h("button", { type: "button", click: () => this.screenshot() }, "Screenshot")));
@@ -167,6 +176,18 @@ export class ParticlePanel {
     } finally {
       this.busy = false;
     }
+  }
+
+  /** Takes up snapshots that were written since. */
+  extend(times: number[]): void {
+    const { frames } = this.particles;
+    for (const time of times.slice(frames.length)) frames.push({ time, step: 0, parts: [], ranges: {} });
+    this.slider.max = String(frames.length - 1);
+  }
+
+  /** Shows the newest snapshot. */
+  showLast(): void {
+    void this.show(this.particles.frames.length - 1);
   }
 
   /** Shows the stored time nearest to this one. */

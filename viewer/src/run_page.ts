@@ -1,6 +1,6 @@
 // The page of one run.
 import { aligned, Chart } from "./charts";
-import type { ColumnInfo, Gauge, RunData, Source } from "./data";
+import type { ColumnInfo, Gauge, Live, RunData, Source, State } from "./data";
 import { duration, h, number, unitText, withUnit } from "./dom";
 import { ParticlePanel } from "./panel";
 
@@ -129,28 +129,81 @@ function caseSection({ run }: RunData): HTMLElement {
     stages.length ? h("details", {}, h("summary", {}, `${stages.length} stages of one evaluation`), table(["stage", "reads", "writes"], stages, 3)) : null);
 }
 
+function progressText(state: State): string {
+  const progress = state.progress;
+  if (!progress) return state.status;
+  const rate = `${number(progress.rate / 1e6, 3)} M particle updates/s`;
+  const rest = state.status === "running" ? `, ${duration(progress.remaining_s)} to go` : "";
+  return `${state.status}: t = ${number(progress.time, 5)} of ${number(progress.end)} s, step ${progress.step}, ${rate}${rest}`;
+}
+
+/** All charts of a run, in sections. */
+class Charts {
+  readonly element = h("div");
+  private all: Chart[] = [];
+  private mark: number | null = null;
+
+  constructor(private source: Source, private onClick: (time: number) => void) {}
+
+  async fill(data: RunData): Promise<void> {
+    const { source, onClick } = this;
+    const made: [string, string, Node | null, Chart[]][] = [
+      ["gauges", "Gauges", comparisonTable(data.gauges), (await Promise.all(data.gauges.map((gauge) => gaugeCharts(gauge, source, onClick)))).flat()],
+      ["energies", "Energies", null, await energyCharts(data, source, onClick)],
+      ["steps", "Steps", null, await stepCharts(data, source, onClick)],
+    ];
+    this.all = made.flatMap(([, , , charts]) => charts);
+    this.element.replaceChildren(...made.filter(([, , before, charts]) => before || charts.length > 0).map(([id, title, before, charts]) =>
+      section(id, title, before, h("div", { class: "charts" }, ...charts.map((chart) => chart.element)))));
+    if (this.mark !== null) this.setMark(this.mark);
+  }
+
+  setMark(time: number): void {
+    this.mark = time;
+    this.all.forEach((chart) => chart.setMark(time));
+  }
+}
+
+/** Asks every second how far the run is, and shows it: at once where it ended, else as its files grow. */
+function follow(live: Live, line: HTMLElement, panel: ParticlePanel | null, reload: () => Promise<void>): void {
+  let polls = 0, status = "", known = 0;
+  const ask = async () => {
+    try {
+      const state = await live.state();
+      line.textContent = progressText(state);
+      if (!panel && state.times.length > 0) return location.reload();
+      panel?.extend(state.times);
+      if (live.follow && state.times.length > known) panel?.showLast();
+      known = state.times.length;
+      if (state.status !== status || polls++ % 5 === 4) await reload();
+      status = state.status;
+      if (status !== "running") return;
+    } catch (error) {
+      line.textContent = `No answer: ${(error as Error).message}`;
+    }
+    setTimeout(() => void ask(), 1000);
+  };
+  void ask();
+}
+
 export async function runPage(page: HTMLElement, data: RunData, source: Source): Promise<void> {
   document.title = `${data.title} · Undine`;
-  page.replaceChildren(h("header", {}, h("h1", {}, data.title), summary(data)));
+  const head = h("div", {}, summary(data));
+  page.replaceChildren(h("header", {}, h("h1", {}, data.title), head));
+  const line = h("p", { class: "note progress", role: "status" });
+  if (source.live) page.append(line);
   for (const warning of data.run.warnings ?? []) page.append(h("p", { class: "note warning" }, warning));
   for (const note of data.notes) page.append(h("p", { class: "note" }, note));
-  let panel: ParticlePanel | null = null;
-  const charts: Chart[] = [];
-  const onClick = (time: number) => panel?.showTime(time);
-  const add = async (id: string, title: string, made: Promise<Chart[]>[], ...before: (Node | null)[]) => {
-    const all = (await Promise.all(made)).flat();
-    if (all.length === 0 && before.every((each) => !each)) return;
-    charts.push(...all);
-    page.append(section(id, title, ...before, h("div", { class: "charts" }, ...all.map((chart) => chart.element))));
-  };
-  if (data.particles && data.particles.frames.length > 0) {
-    panel = new ParticlePanel(data, source);
-    page.append(section("particles", "Particles", panel.element));
-  }
-  if (data.gauges.length > 0) await add("gauges", "Gauges", data.gauges.map((gauge) => gaugeCharts(gauge, source, onClick)), comparisonTable(data.gauges));
-  await add("energies", "Energies", [energyCharts(data, source, onClick)]);
-  await add("steps", "Steps", [stepCharts(data, source, onClick)]);
-  page.append(caseSection(data));
-  if (panel) panel.onTime = (time) => charts.forEach((chart) => chart.setMark(time));
+  const panel = data.particles && data.particles.frames.length > 0 ? new ParticlePanel(data, source) : null;
+  if (panel) page.append(section("particles", "Particles", panel.element));
+  const charts = new Charts(source, (time) => panel?.showTime(time));
+  await charts.fill(data);
+  page.append(charts.element, caseSection(data));
+  if (panel) panel.onTime = (time) => charts.setMark(time);
+  if (source.live) follow(source.live, line, panel, async () => {
+    const newer = (await source.data()) as RunData;
+    head.replaceChildren(summary(newer));
+    await charts.fill(newer);
+  });
   page.dataset.ready = "true";
 }

@@ -18,6 +18,7 @@ void main() {
   isPlain = plain + (value == value ? 0.0 : 1.0);
   isChosen = gl_VertexID == chosen ? 1.0 : 0.0;
   gl_PointSize = max(size, 1.5) * (isChosen > 0.5 ? 1.6 : 1.0) + isChosen * 6.0;
+  if (isChosen > 0.5) gl_Position.z = -0.999 * gl_Position.w;  // before all others, so that it is found
   if (clipAxis >= 0 && (position[clipAxis] - clipAt) * clipSide > 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
@@ -55,6 +56,7 @@ export class Scene {
   private material: three.ShaderMaterial;
   private box: three.LineSegments;
   private pending = false;
+  private sized = false;
   private centre: three.Vector3;
   private radius: number;
 
@@ -149,6 +151,25 @@ export class Scene {
     this.controls.target.copy(this.centre);
     this.controls.update();
     this.resize();
+    if (this.camera instanceof three.PerspectiveCamera) this.approach(this.camera, away);
+    this.controls.update();
+    this.render();
+  }
+
+  /** Goes so near that the corners of the box just fit. */
+  private approach(camera: three.PerspectiveCamera, away: three.Vector3): void {
+    const { low, high } = this.setup;
+    let distance = this.radius * 3.4;
+    for (let k = 0; k < 8; ++k) {
+      camera.position.copy(this.centre).addScaledVector(away, distance);
+      camera.updateMatrixWorld();
+      let reach = 0;
+      for (let c = 0; c < 8; ++c) {
+        const corner = new three.Vector3(...[0, 1, 2].map((axis) => (c >> axis & 1 ? high : low)[axis]) as [number, number, number]).project(camera);
+        reach = Math.max(reach, Math.abs(corner.x), Math.abs(corner.y));
+      }
+      distance = Math.max(distance * (0.5 + 0.5 * reach / 0.92), this.radius * 1.2);
+    }
   }
 
   /** From the front, a little from the right and from above; the longest side of the box across. */
@@ -241,5 +262,8 @@ export class Scene {
     }
     this.camera.updateProjectionMatrix();
     this.render();
+    if (this.sized || this.parent.clientWidth === 0) return;
+    this.sized = true;
+    this.reset();  // now that the room is known
   }
 }

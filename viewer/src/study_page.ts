@@ -31,14 +31,25 @@ function verdictCell(value: unknown): HTMLElement {
   return h("span", { class: good === null ? "" : good ? "good" : "bad" }, mark + text);
 }
 
+/** What was published of a quantity or a verdict, and whether we agree. */
+function beside(member: Member, name: string, cell: HTMLElement): HTMLElement {
+  const published = member.published?.[name], agrees = member.agrees?.[name];
+  if (published === undefined || published === null) return cell;
+  const mark = agrees === true ? h("span", { class: "good" }, " ✓") : agrees === false ? h("span", { class: "bad" }, " ✗") : null;
+  return h("span", {}, cell, h("span", { class: "published" }, ` (published ${typeof published === "number" ? number(published) : published}`, mark, ")"));
+}
+
+/** The values of an axis as numbers, where all are numbers of one unit. */
+function numbersOf(axis: Study["axes"][0]): { unit: string; of: (value: unknown) => number | null } | null {
+  const read = (value: unknown) => /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*)$/i.exec(String(value));
+  const parts = axis.values.map(read);
+  if (parts.length < 2 || parts.some((part) => !part || part[2] !== parts[0]![2])) return null;
+  return { unit: parts[0]![2], of: (value) => (value === undefined ? null : Number(read(value)?.[1] ?? NaN)) };
+}
+
 function quantityCell(member: Member, name: string, unit: string): Node {
-  const text = `${number(member.quantities[name])}${unit ? " " + unitText(unit) : ""}`;
-  const published = member.published?.[name];
-  const agrees = member.agrees?.[name];
-  const cell = h("span", {}, text);
-  if (published !== undefined && published !== null) cell.append(h("span", { class: "published" }, ` (published ${number(published)})`));
-  if (agrees !== undefined && agrees !== null) cell.append(" ", verdictCell(agrees));
-  return cell;
+  const value = member.quantities[name];
+  return beside(member, name, h("span", {}, number(value) + (unit && typeof value === "number" ? ` ${unitText(unit)}` : "")));
 }
 
 function linked(member: Member, content: Node | string): Node {
@@ -56,9 +67,9 @@ function memberTable(study: Study): HTMLElement {
     member.steps === null || member.steps === undefined ? "–" : String(member.steps),
     member.seconds === null || member.seconds === undefined ? "–" : duration(member.seconds),
     ...study.quantities.map((q) => linked(member, quantityCell(member, q.name, q.unit ?? ""))),
-    ...study.verdicts.map((v) => linked(member, verdictCell(member.verdicts[v.name]))),
+    ...study.verdicts.map((v) => linked(member, beside(member, v.name, verdictCell(member.verdicts[v.name])))),
   ]);
-  return table(heads, rows, 1 + axes.length);
+  return table(heads, rows, 2 + axes.length);
 }
 
 const groupName = (member: Member, axes: string[]) => axes.map((axis) => `${axis} = ${String(member.axes[axis])}`).join(", ");
@@ -115,14 +126,15 @@ function plot(title: string, study: Study, axis: string, quantity: string, x: { 
 }
 
 function plots(study: Study): HTMLElement | null {
-  const axes = study.axes.filter((axis) => axis.values.length > 1 && axis.values.every((value) => typeof value === "number")).map((axis) => axis.name);
+  const numeric = new Map(study.axes.map((axis) => [axis.name, numbersOf(axis)]));
+  const axes = study.axes.map((each) => each.name).filter((name) => numeric.get(name));
   const quantities = study.quantities.map((q) => q.name);
   if (quantities.length === 0) return null;
-  let axis = axes[0] ?? study.axes[0]?.name ?? "", quantity = study.orders?.[0]?.quantity ?? quantities[0];
+  let axis = study.orders?.[0]?.axis ?? axes[0] ?? study.axes[0]?.name ?? "", quantity = study.orders?.[0]?.quantity ?? quantities[0];
   const charts = h("div", { class: "charts" });
   const draw = () => {
     const made = [
-      axes.length ? plot(`${quantity} against ${axis}`, study, axis, quantity, { name: axis, of: (member) => member.axes[axis] }, true) : null,
+      numeric.get(axis) ? plot(`${quantity} against ${axis}`, study, axis, quantity, { name: axis, unit: numeric.get(axis)!.unit, of: (member) => numeric.get(axis)!.of(member.axes[axis]) }, true) : null,
       plot(`${quantity} against cost`, study, axis, quantity, { name: "wall time", unit: "s", of: (member) => member.seconds }, false),
     ].filter((chart) => chart !== null);
     charts.replaceChildren(...made.map((chart) => chart.element));
@@ -131,7 +143,7 @@ function plots(study: Study): HTMLElement | null {
   return h("section", { id: "plots" }, h("h2", {}, "Error, resolution and cost"),
     h("div", { class: "controls" },
       labelled("Quantity", select(quantities.map((name) => [name, name]), quantity, (value) => { quantity = value; draw(); })),
-      axes.length > 1 ? labelled("Over", select(axes.map((name) => [name, name]), axis, (value) => { axis = value; draw(); })) : null),
+      axes.length > 1 ? labelled("Over", select(axes.map((name): [string, string] => [name, name]), axis, (value) => { axis = value; draw(); })) : null),
     charts);
 }
 
@@ -156,5 +168,7 @@ export async function studyPage(page: HTMLElement, data: StudyData, _: Source): 
   for (const part of [plots(study), orders(study)]) if (part) page.append(part);
   if (meanings.length) page.append(h("section", {}, h("h2", {}, "Quantities"), table(["quantity", "unit", "meaning"], meanings, 3)));
   if (rules.length) page.append(h("section", {}, h("h2", {}, "Verdicts"), table(["verdict", "rule"], rules, 2)));
+  const reasons = study.members.flatMap((member) => (member.reasons ?? []).map((reason) => [member.name, reason]));
+  if (reasons.length) page.append(h("section", {}, h("h2", {}, "Where we differ from what was published"), table(["member", "reason"], reasons, 2)));
   page.dataset.ready = "true";
 }

@@ -9,6 +9,7 @@
 #include "undine/app/picture/picture_command.hpp"
 #include "undine/app/report/report.hpp"
 #include "undine/app/run_options.hpp"
+#include "undine/app/view/view.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/io/checksum.hpp"
@@ -67,6 +68,13 @@ int execute(int argc, char** argv) {
   report->add_option("--max-mb", report_options.megabytes, "largest size in MB (20); what does not fit is thinned out")
       ->check(CLI::Range(1.0, 1000.0));
 
+  ViewOptions view_options;
+  auto* view = app.add_subcommand("view", "show a run, also while it goes on, to a browser on this machine");
+  view->add_option("folder", view_options.folder, "of a run")->required();
+  view->add_flag("--follow", view_options.follow, "go on to each new snapshot");
+  view->add_option("--port", view_options.port, "to listen on; any free one unless said")->check(CLI::Range(0, 65535));
+  view->add_option("--host", view_options.host, "address to listen on (127.0.0.1); others let other machines in");
+
   PictureOptions picture_options;
   auto* picture = app.add_subcommand("picture", "draw the particles of a run, as a picture or a movie");
   add_picture_options(*picture, picture_options);
@@ -101,6 +109,7 @@ int execute(int argc, char** argv) {
   if (show->parsed()) fmt::print("{}", show_text(name));
   if (sum->parsed()) fmt::print("{}\n", checksum_file(file));
   if (report->parsed()) return report_command(report_options);
+  if (view->parsed()) return view_command(view_options);
   if (picture->parsed()) return picture_command(picture_options);
   if (bench->parsed()) return run_bench(bench_options);
   return exit_ok;

@@ -142,6 +142,7 @@ class Run {
     std::signal(SIGTERM, on_signal);
     Step step = flow_->stable_step(setup_.choice.limits);
     double before = fresh ? -1 : flow_->time();
+    progress_start_ = flow_->time();
     record("running", start, energies);
     int code = exit_ok;
     try {
@@ -277,30 +278,40 @@ class Run {
 
   double rate(Clock::time_point start) const { return particle_updates_ / std::max(1e-9, seconds_since(start)); }
 
+  /// Seconds that the rest takes at the pace so far.
+  double remaining(Clock::time_point start) const {
+    const double done = flow_->time() - progress_start_, left = setup_.choice.end - flow_->time();
+    return done > 0 ? std::max(0.0, seconds_since(start) * left / done) : 0;
+  }
+
+  std::string progress_line(Clock::time_point start, const Step& step) const {
+    return to_line(Json{{"time", flow_->time()},
+                        {"end", setup_.choice.end},
+                        {"step", step_},
+                        {"dt", step.dt},
+                        {"limiter", step.limiter},
+                        {"rate", rate(start)},
+                        {"remaining_s", remaining(start)}});
+  }
+
+  /// Says how far the run is: to whoever follows it, once a second, and to its user.
   void progress(Clock::time_point start, const Step& step, bool last) {
+    if (last || seconds_since(last_file_) >= 1) {
+      last_file_ = Clock::now();
+      write_progress(output_.folder, progress_line(start, step));
+    }
     if (options_.verbosity == Verbosity::quiet) return;
     const bool terminal = isatty(STDOUT_FILENO) != 0;
     const double wait = terminal ? 0.5 : 10.0;
     if (!last && seconds_since(last_progress_) < wait) return;
     last_progress_ = Clock::now();
-    const double t = flow_->time(), end = setup_.choice.end;
-    const double elapsed = seconds_since(start), began = progress_start_ < 0 ? t : progress_start_;
-    if (progress_start_ < 0) progress_start_ = t;
-    const double remaining = t > began ? elapsed * (end - t) / (t - began) : 0;
     if (options_.verbosity == Verbosity::json) {
-      const Json line{{"time", t},
-                      {"end", end},
-                      {"step", step_},
-                      {"dt", step.dt},
-                      {"limiter", step.limiter},
-                      {"rate", rate(start)},
-                      {"remaining_s", remaining}};
-      fmt::print("{}\n", to_line(line));
+      fmt::print("{}\n", progress_line(start, step));
     } else {
       fmt::print(
           "{}  t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
-          terminal ? "\r" : "", t, end, step_, step.dt, step.limiter, rate(start) * 1e-6, std::max(0.0, remaining),
-          terminal && !last ? "" : "\n");
+          terminal ? "\r" : "", flow_->time(), setup_.choice.end, step_, step.dt, step.limiter, rate(start) * 1e-6,
+          remaining(start), terminal && !last ? "" : "\n");
     }
     std::fflush(stdout);
   }
@@ -389,8 +400,8 @@ class Run {
   std::optional<OwnedCheckpoint> checkpoint_;
   std::unique_ptr<WeaklyCompressible<N>> flow_;
   std::int64_t step_ = 0;
-  double particle_updates_ = 0, seconds_output_ = 0, first_step_ = 0, progress_start_ = -1;
-  Clock::time_point last_progress_ = Clock::now();
+  double particle_updates_ = 0, seconds_output_ = 0, first_step_ = 0, progress_start_ = 0;
+  Clock::time_point last_progress_ = Clock::now(), last_file_ = {};
 };
 
 /// Loads the case and calls f(run) for a run of its dimensions.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -133,6 +135,13 @@ void StepSeries::add(double time, std::int64_t count, const Step& step, std::siz
   const auto limiter = std::ranges::find(step_limiters, step.limiter) - step_limiters.begin();
   series_.add(std::array{time, static_cast<double>(count), step.dt, static_cast<double>(limiter),
                          static_cast<double>(fluid), static_cast<double>(wall)});
+}
+
+void write_progress(const std::filesystem::path& folder, const std::string& text) {
+  const auto file = folder / "progress.json", temporary = folder / "progress.json.tmp";
+  if (std::ofstream stream(temporary); !(stream << text << '\n')) return;
+  std::error_code ignored;
+  std::filesystem::rename(temporary, file, ignored);
 }
 
 std::vector<std::filesystem::path> Checkpoints::files() const {

@@ -64,6 +64,10 @@ class StepSeries {
   TimeSeries series_;
 };
 
+/// Replaces progress.json, by which others may follow a run. Not forced to the disk, and silent where it cannot be
+/// written: nothing depends on it.
+void write_progress(const std::filesystem::path& folder, const std::string& text);
+
 /// The last two checkpoints of a folder, by step.
 class Checkpoints {
  public:

@@ -16,6 +16,8 @@ namespace undine {
 namespace {
 
 constexpr int largest_side = 8192;
+/// Diameter of a particle in spacings, as on the page: more than one, so that a fluid has no gaps.
+double diameter(int dimensions) { return dimensions < 3 ? 1.45 : 1.15; }
 
 [[noreturn]] void refuse(const std::string& option, const std::string& given, std::string fix) {
   throw InputError({.what = fmt::format("'{}' is no {}", given, option), .fix = std::move(fix)});
@@ -153,7 +155,7 @@ int picture_command(const PictureOptions& options) {
   const StoredTime& chosen =
       run.frames[options.time < 0 && !run.frames.empty() ? run.frames.size() - 1 : run.nearest(options.time)];
   const OwnedFrame frame = read_snapshot(chosen.file);
-  style.spacing = run.spacing(frame);
+  style.spacing = diameter(frame.dimensions) * run.spacing(frame);
   if (!options.out.empty()) {
     draw_picture(frame, chosen.time, style).write_png(options.out);
     fmt::print("{}: t = {:.6g} s\n", options.out.string(), chosen.time);

@@ -64,31 +64,6 @@ Json ranges_of(const OwnedColumn& column, const std::vector<char>& walls) {
   return all;
 }
 
-/// One snapshot as the page's JSON, its numbers in blocks.
-Json frame_json(const OwnedFrame& frame, double time, const Thinning& thin, Blocks& blocks) {
-  const std::vector<char> walls = walls_of(frame);
-  const BlockType type = thin.rounded ? BlockType::rounded16 : BlockType::real32;
-  Json parts = Json::array(), ranges = Json::object();
-  for (const int group : {0, 1}) {
-    const auto chosen = sample(frame, walls, group, thin.share);
-    if (chosen.empty()) continue;
-    std::vector<std::int64_t> ids;
-    for (const std::size_t i : chosen) ids.push_back(id_of(frame.find_integers(identity_column), i));
-    Json fields = Json::object();
-    for (const OwnedColumn& column : frame.columns)
-      if (column.name != frame.position)
-        fields[column.name] = blocks.add(gathered(column, chosen), column.components, type);
-    parts.push_back({{"group", group},
-                     {"count", chosen.size()},
-                     {"ids", blocks.add_whole(ids)},
-                     {"x", blocks.add(gathered(*frame.find(frame.position), chosen), frame.dimensions, type)},
-                     {"fields", std::move(fields)}});
-  }
-  for (const OwnedColumn& column : frame.columns)
-    if (column.name != frame.position) ranges[column.name] = ranges_of(column, walls);
-  return {{"time", time}, {"step", frame.step}, {"parts", std::move(parts)}, {"ranges", std::move(ranges)}};
-}
-
 Json fields_json(const OwnedFrame& frame) {
   Json fields = Json::array();
   for (const OwnedColumn& column : frame.columns)
@@ -136,6 +111,30 @@ std::vector<std::size_t> evenly(std::size_t all, std::size_t kept) {
 
 }  // namespace
 
+Json frame_json(const OwnedFrame& frame, double time, const Thinning& thin, Blocks& blocks) {
+  const std::vector<char> walls = walls_of(frame);
+  const BlockType type = thin.rounded ? BlockType::rounded16 : BlockType::real32;
+  Json parts = Json::array(), ranges = Json::object();
+  for (const int group : {0, 1}) {
+    const auto chosen = sample(frame, walls, group, thin.share);
+    if (chosen.empty()) continue;
+    std::vector<std::int64_t> ids;
+    for (const std::size_t i : chosen) ids.push_back(id_of(frame.find_integers(identity_column), i));
+    Json fields = Json::object();
+    for (const OwnedColumn& column : frame.columns)
+      if (column.name != frame.position)
+        fields[column.name] = blocks.add(gathered(column, chosen), column.components, type);
+    parts.push_back({{"group", group},
+                     {"count", chosen.size()},
+                     {"ids", blocks.add_whole(ids)},
+                     {"x", blocks.add(gathered(*frame.find(frame.position), chosen), frame.dimensions, type)},
+                     {"fields", std::move(fields)}});
+  }
+  for (const OwnedColumn& column : frame.columns)
+    if (column.name != frame.position) ranges[column.name] = ranges_of(column, walls);
+  return {{"time", time}, {"step", frame.step}, {"parts", std::move(parts)}, {"ranges", std::move(ranges)}};
+}
+
 Thinning fit(std::size_t room, std::size_t frames, std::size_t particles, double exact, double small) {
   const double space = margin * static_cast<double>(room);
   const auto all = static_cast<double>(frames) * static_cast<double>(particles);
@@ -148,6 +147,27 @@ Thinning fit(std::size_t room, std::size_t frames, std::size_t particles, double
   thin.frames = std::clamp(fitting, std::min(fewest_frames, frames), frames);
   thin.share = std::min(thin.share, space / (static_cast<double>(thin.frames * particles) * small));
   return thin;
+}
+
+Json particles_header(const RunFolder& run) {
+  if (run.frames.empty()) return nullptr;
+  const OwnedFrame first = read_snapshot(run.frames.front().file), last = read_snapshot(run.frames.back().file);
+  Bounds bounds(last.dimensions);
+  bounds.add(*first.find(first.position));
+  bounds.add(*last.find(last.position));
+  Json frames = Json::array();
+  for (const StoredTime& stored : run.frames)
+    frames.push_back({{"time", stored.time}, {"step", 0}, {"parts", Json::array()}, {"ranges", Json::object()}});
+  return {{"dimensions", last.dimensions},
+          {"spacing", run.spacing(last)},
+          {"low", bounds.low()},
+          {"high", bounds.high()},
+          {"stored", last.particles},
+          {"shown", last.particles},
+          {"frames_stored", run.frames.size()},
+          {"rounded", false},
+          {"fields", fields_json(last)},
+          {"frames", std::move(frames)}};
 }
 
 Json particles_of(const RunFolder& run, std::size_t room, Blocks& blocks, std::vector<std::string>& notes) {

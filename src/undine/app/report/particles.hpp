@@ -13,12 +13,18 @@ namespace undine {
 /// no snapshots. What was left out is said in `notes`.
 Json particles_of(const RunFolder& run, std::size_t room, Blocks& blocks, std::vector<std::string>& notes);
 
+/// What there is of particles, and when: as above, but for the particles. Null if there are no snapshots.
+Json particles_header(const RunFolder& run);
+
 /// How many of its particles and times a page shows, and how.
 struct Thinning {
   bool rounded = false;
   double share = 1;        ///< of the particles
   std::size_t frames = 0;  ///< of the times
 };
+
+/// One snapshot for a page, its numbers in blocks.
+Json frame_json(const OwnedFrame& frame, double time, const Thinning& thin, Blocks& blocks);
 
 /// What fits: a particle at one time takes `exact` bytes, or `small` where rounded.
 Thinning fit(std::size_t room, std::size_t frames, std::size_t particles, double exact, double small);

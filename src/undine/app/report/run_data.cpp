@@ -67,15 +67,19 @@ Json gauges_json(const fs::path& folder, Blocks& blocks) {
 
 }  // namespace
 
+Json run_series(const RunFolder& run, Blocks& blocks) {
+  return {{"kind", "run"},
+          {"title", run.title()},
+          {"run", run.record},
+          {"energies", series_json(run.folder / "energies.csv", blocks)},
+          {"steps", series_json(run.folder / "steps.csv", blocks)},
+          {"limiters", step_limiters},
+          {"gauges", gauges_json(run.folder / "gauges", blocks)}};
+}
+
 Json run_data(const RunFolder& run, std::size_t bytes, Blocks& blocks) {
   std::vector<std::string> notes;
-  Json data{{"kind", "run"},
-            {"title", run.title()},
-            {"run", run.record},
-            {"energies", series_json(run.folder / "energies.csv", blocks)},
-            {"steps", series_json(run.folder / "steps.csv", blocks)},
-            {"limiters", step_limiters},
-            {"gauges", gauges_json(run.folder / "gauges", blocks)}};
+  Json data = run_series(run, blocks);
   const std::size_t used = blocks.bytes() + data.dump(-1, ' ', false, Json::error_handler_t::replace).size();
   data["particles"] = particles_of(run, bytes > used ? bytes - used : 0, blocks, notes);
   data["notes"] = notes;
