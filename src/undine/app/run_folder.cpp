@@ -115,9 +115,12 @@ ScalarChoice find_scalar(const OwnedFrame& frame, const std::string& name) {
       if (names.back() == field) return {column.name, part};
     }
   }
+  const std::string why = "they hold " + listed(names);
+  for (const auto& [word, meant] : plain_names)
+    if (frame.find(meant) != nullptr) names.push_back(word);
   throw InputError({.what = fmt::format("the snapshots have no field '{}'", shortened(name, 40)),
-                    .why = "they hold " + listed(names),
-                    .fix = did_you_mean(field, names)});
+                    .why = why,
+                    .fix = did_you_mean(name, names)});
 }
 
 std::string scalar_label(const ScalarChoice& choice, int components) {

@@ -53,8 +53,9 @@ std::string text_of(const Json& object, const char* name, const std::string& oth
 }  // namespace
 
 std::vector<fs::path> study_members(const fs::path& folder) {
+  const Json study = read_study(folder);
   std::vector<fs::path> folders;
-  for (const Json& member : read_study(folder)["members"]) {
+  for (const Json& member : study["members"]) {
     const fs::path place = place_of(member);
     if (!place.empty() && fs::is_regular_file(folder / place / "run.json")) folders.push_back(folder / place);
   }

@@ -117,6 +117,11 @@ int view_command(const ViewOptions& options) {
   Answers answers(options, random_token());
   httplib::Server server;
   server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
+  // Only after a server that ended: two at one port would share its visitors.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   server.set_read_timeout(patience_s);
   server.set_write_timeout(patience_s);
   server.set_keep_alive_timeout(2);
