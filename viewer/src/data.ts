@@ -101,6 +101,8 @@ export interface RunData {
   particles: Particles | null;
   notes: string[];
   blocks: BlockInfo[];
+  /** Of a run that goes on; its record is that of its start. */
+  progress?: Progress | null;
 }
 
 export interface Verdict {

@@ -8,6 +8,8 @@ import { Legend } from "./legend";
 import { Scene } from "./scene";
 
 const framesPerSecond = 8;
+/** Layers of wall particles that are left out between the viewer and the fluid. */
+const wallLayers = 4;
 /** Diameter of a particle in spacings: more than one, so that a fluid has no gaps. */
 const diameterOf = (dimensions: number) => (dimensions < 3 ? 1.45 : 1.15);
 
@@ -48,19 +50,19 @@ export class ParticlePanel {
   private part = 0;
   private map = "viridis";
   private range: "all" | "now" | "own" = "all";
-  private walls: "plain" | "hidden" | "coloured" = "plain";
+  private walls: "behind" | "plain" | "hidden" | "coloured";
   private clip = { axis: -1, share: 0.5, side: 1 };
   private chosen: number | null = null;
 
   constructor(private data: RunData, private source: Source) {
     this.particles = data.particles!;
     const { frames, fields } = this.particles;
+    this.walls = this.particles.dimensions === 3 ? "behind" : "plain";
     this.field = fields.find((field) => field.name === "v") ?? fields.find((field) => field.name === "p") ?? fields[0];
     this.slider = h("input", { type: "range", min: 0, max: frames.length - 1, step: 1, value: 0, "aria-label": "time", input: () => this.show(Number(this.slider.value)) });
     this.idInput = h("input", { type: "number", min: 0, step: 1, placeholder: "id", change: () => this.choose(this.idInput.value === "" ? null : Number(this.idInput.value)) });
     this.clipInput = h("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, disabled: true, "aria-label": "place of the cut", input: () => this.setClip({ share: Number(this.clipInput.value) }) });
-    this.element.append(this.stage, this.timeRow(), this.controls(), this.values);
-    this.stage.append(this.legend.element);
+    this.element.append(this.stage, this.legend.element, this.timeRow(), this.controls(), this.values);
     const [low, high] = [[...this.particles.low, 0, 0].slice(0, 3), [...this.particles.high, 0, 0].slice(0, 3)];
     try {
       this.scene = new Scene(this.stage, { dimensions: this.particles.dimensions, low, high, spacing: diameterOf(this.particles.dimensions) * this.particles.spacing, up: upward(data, this.particles.dimensions) });
@@ -102,7 +104,7 @@ export class ParticlePanel {
     mapSelect.classList.add("map");
     const rangeSelect = select([["all", "of all times"], ["now", "of this time"], ["own", "as typed"]], this.range, (value) => { this.range = value as typeof this.range; this.recolour(); });
     rangeSelect.classList.add("range");
-    const wallSelect = select([["plain", "grey"], ["coloured", "coloured"], ["hidden", "hidden"]], this.walls, (value) => { this.walls = value as typeof this.walls; void this.refill(); });
+    const wallSelect = select([...(this.particles.dimensions === 3 ? [["behind", "grey, but in front"] as [string, string]] : []), ["plain", "grey"], ["coloured", "coloured"], ["hidden", "hidden"]], this.walls, (value) => { this.walls = value as typeof this.walls; void this.refill(); });
     wallSelect.classList.add("walls");
     const axes = ["x", "y", "z"].slice(0, this.particles.dimensions);
     const cuts: [string, string][] = [["-1/1", "none"], ...axes.flatMap((axis, k): [string, string][] => [[`${k}/1`, `beyond ${axis}`], [`${k}/-1`, `before ${axis}`]])];
@@ -204,6 +206,7 @@ export class ParticlePanel {
     if (frame !== this.frame) return;
     const kept = this.walls === "hidden" ? frame.position.map((x, i) => (frame.group[Math.floor(i / 3)] === 1 ? NaN : x)) : frame.position;
     this.scene.setParticles(kept, this.walls === "coloured" ? new Float32Array(frame.count) : frame.group);
+    this.scene.setOpenWalls(this.walls === "behind" ? wallLayers * this.particles.spacing : 0);
     this.scene.setValues(value);
     const text = `t = ${withUnit(frame.info.time, "s", 5)}`;
     this.slider.value = String(this.at);

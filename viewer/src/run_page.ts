@@ -30,20 +30,22 @@ export function table(heads: string[], rows: (string | Node)[][], leftColumns = 
     h("tbody", {}, ...rows.map((row) => h("tr", {}, ...row.map((content, k) => cell("td", content, k)))))));
 }
 
-function summary({ run }: RunData): HTMLElement {
-  const seconds = run.seconds?.total;
+function summary({ run, progress }: RunData): HTMLElement {
+  const going = run.status === "running" ? (progress ?? null) : null;
+  const seconds = going ? undefined : run.seconds?.total;
+  const rate = going ? going.rate : run.particle_updates_per_s;
   const machine = run.machine ?? {};
   return facts([
     ["status", run.status],
     ["particles", `${run.particles?.fluid ?? 0} fluid, ${run.particles?.wall ?? 0} wall`],
-    ["simulated time", withUnit(run.time, "s")],
-    ["steps", String(run.steps ?? "")],
+    ["simulated time", withUnit(going ? going.time : run.time, "s")],
+    ["steps", String((going ? going.step : run.steps) ?? "")],
     ["wall time", seconds === undefined ? null : duration(seconds)],
-    ["rate", run.particle_updates_per_s ? `${number(run.particle_updates_per_s / 1e6, 3)} M particle updates/s` : null],
+    ["rate", rate ? `${number(rate / 1e6, 3)} M particle updates/s` : null],
     ["threads", run.threads === undefined ? null : String(run.threads)],
     ["machine", [machine.processor, machine.cores && `${machine.cores} cores`, machine.memory_gb && `${machine.memory_gb} GB`].filter(Boolean).join(", ")],
-    ["audit residual", run.energy?.residual_relative === undefined ? null : `${number(run.energy.residual_relative, 3)} of the initial potential energy`],
-    ["case", run.case],
+    ["audit residual", going || run.energy?.residual_relative === undefined ? null : `${number(run.energy.residual_relative, 3)} of the initial potential energy`],
+    ["case", run.case?.split("/").pop()],
     ["version", run.version],
   ]);
 }

@@ -9,6 +9,8 @@ attribute float value;
 attribute float plain;
 uniform float low, high, diameter, pixels, clipAt, clipSide, opened;
 uniform int chosen, clipAxis;
+uniform vec3 boxLow, boxHigh;
+uniform float wallDepth;
 varying float at, isPlain, isChosen;
 void main() {
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
@@ -19,6 +21,12 @@ void main() {
   isChosen = gl_VertexID == chosen ? 1.0 : 0.0;
   gl_PointSize = max(size, 1.5) * (isChosen > 0.5 ? 1.6 : 1.0) + isChosen * 6.0;
   if (isChosen > 0.5) gl_Position.z = -0.999 * gl_Position.w;  // before all others, so that it is found
+  bool front = false, behind = false;
+  for (int k = 0; k < 3; ++k) {
+    if (position[k] > boxHigh[k] - wallDepth) { if (cameraPosition[k] > boxHigh[k]) front = true; else behind = true; }
+    if (position[k] < boxLow[k] + wallDepth) { if (cameraPosition[k] < boxLow[k]) front = true; else behind = true; }
+  }
+  if (wallDepth > 0.0 && plain > 0.5 && front && !behind) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   if (clipAxis >= 0 && (position[clipAxis] - clipAt) * clipSide > 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
@@ -85,6 +93,7 @@ export class Scene {
       uniforms: {
         low: { value: 0 }, high: { value: 1 }, diameter: { value: setup.spacing }, pixels: { value: 1 },
         clipAt: { value: 0 }, clipSide: { value: 1 }, clipAxis: { value: -1 }, chosen: { value: -1 },
+        boxLow: { value: low }, boxHigh: { value: high }, wallDepth: { value: 0 },
         opened: { value: flat ? 0 : 1 }, table: { value: null }, plainColour: { value: new three.Color() }, shade: { value: flat ? 0.35 : 1 },
       },
     });
@@ -134,6 +143,24 @@ export class Scene {
     Object.assign(this.material.uniforms.clipAxis, { value: axis });
     Object.assign(this.material.uniforms.clipAt, { value: at });
     Object.assign(this.material.uniforms.clipSide, { value: side });
+  }
+
+  /** Leaves out grey particles of the given depth behind those faces of the box that the viewer looks at; 0: none. */
+  setOpenWalls(depth: number): void {
+    this.material.uniforms.wallDepth.value = depth;
+  }
+
+  private opened(i: number): boolean {
+    const depth = this.material.uniforms.wallDepth.value as number;
+    if (depth <= 0 || this.geometry.getAttribute("plain").getX(i) === 0) return false;
+    const position = this.geometry.getAttribute("position");
+    let front = false, behind = false;
+    for (let k = 0; k < 3; ++k) {
+      const at = position.getComponent(i, k), eye = this.camera.position.getComponent(k), { low, high } = this.setup;
+      if (at > high[k] - depth) [front, behind] = eye > high[k] ? [true, behind] : [front, true];
+      if (at < low[k] + depth) [front, behind] = eye < low[k] ? [true, behind] : [front, true];
+    }
+    return front && !behind;
   }
 
   setDiameter(diameter: number): void {
@@ -226,6 +253,7 @@ export class Scene {
       point.set(position.getX(i), position.getY(i), position.getZ(i), 1);
       const axis = clipAxis.value as number;
       if (axis >= 0 && (point.getComponent(axis) - clipAt.value) * clipSide.value > 0) continue;
+      if (this.opened(i)) continue;
       point.applyMatrix4(view);
       if (point.w <= 0) continue;
       const dx = ((point.x / point.w + 1) / 2) * width - x, dy = ((1 - point.y / point.w) / 2) * height - y;

@@ -32,6 +32,12 @@ Seen Camera::see(const Vec<3>& point) const {
           distance_ == 0 || away > 0.05 * distance_};
 }
 
+bool Camera::faces(const Box3& box, int axis, bool higher) const {
+  if (distance_ == 0) return higher ? toward_[axis] > 0 : toward_[axis] < 0;
+  const double eye = target_[axis] + distance_ * toward_[axis];
+  return higher ? eye > box.high[axis] : eye < box.low[axis];
+}
+
 /// Chooses scale and place so that the corners of the box touch the area's edges.
 void Camera::fill(const Box3& box, const Area& area, double zoom) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -37,6 +37,8 @@ class Camera {
   static Camera around(const Box3& box, const Area& area, Vec<3> up, const CameraOptions& options);
 
   Seen see(const Vec<3>& point) const;
+  /// Whether the viewer is outside of a face of a box: the one at its higher end along the axis, or at its lower.
+  bool faces(const Box3& box, int axis, bool higher) const;
 
  private:
   void fill(const Box3& box, const Area& area, double zoom);

@@ -44,6 +44,10 @@ std::string short_number(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   if (value == 0) return "0";
   const int power = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (power >= digits) {  // no decimals left to round
+    const double unit = std::pow(10.0, power - digits + 1);
+    value = std::round(value / unit) * unit;
+  }
   const std::string sign = value < 0 ? "−" : "";
   if (power >= -3 && power < 6)
     return sign + trimmed(fmt::format("{:.{}f}", std::abs(value), std::max(0, digits - 1 - power)));
@@ -54,10 +58,12 @@ std::string short_number(double value, int digits) {
 
 void draw_legend(Canvas& canvas, const Area& area, const ColourMap& map, const LegendText& text, double size,
                  Colour ink) {
-  const double bar = area.height - 2.6 * size, top = area.top + 1.4 * size;
+  // Whole pixels, or else the paper would shine through between the colours.
+  const double bar = std::round(area.height - 2.6 * size), top = std::round(area.top + 1.4 * size);
+  const double left = std::round(area.left);
   canvas.text(area.left, area.top + 0.9 * size, size, text.heading, Align::left, ink);
   const int columns = static_cast<int>(area.width);
-  for (int i = 0; i < columns; ++i) canvas.rectangle({area.left + i, top, 1, bar}, map.at((i + 0.5) / columns));
+  for (int i = 0; i < columns; ++i) canvas.rectangle({left + i, top, 1, bar}, map.at((i + 0.5) / columns));
   constexpr int ticks = 5;
   for (int k = 0; k < ticks; ++k) {
     const double share = static_cast<double>(k) / (ticks - 1), value = text.low + (text.high - text.low) * share;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr Colour paper{1, 1, 1}, ink{0.10, 0.14, 0.19}, wall_grey{0.76, 0.79, 0.82}, edge_grey{0.60, 0.65, 0.70};
 constexpr double flat_shade = 0.25;
+constexpr double wall_layers = 4;  ///< that are left out between the viewer and the fluid
 
 /// Sizes that follow that of the picture.
 struct Layout {
@@ -44,8 +45,22 @@ bool cut_away(const PictureStyle& style, const Vec<3>& place) {
   return style.cut->above ? beyond > 0 : beyond < 0;
 }
 
-Camera camera_for(const OwnedFrame& frame, const PictureStyle& style, const Area& area) {
-  const Box3 box = style.box ? *style.box : bounds_of(frame, style);
+/// Diameter of a particle in spacings, as on the page: more than one, so that a fluid has no gaps.
+double diameter(int dimensions) { return dimensions < 3 ? 1.45 : 1.15; }
+
+/// Whether a wall particle stands between the viewer and what is in the box: it is near a face that the viewer looks
+/// at, and near none of the others.
+bool in_the_way(const Vec<3>& place, const Box3& box, const Camera& camera, double depth) {
+  bool front = false, behind = false;
+  for (int k = 0; k < 3; ++k)
+    for (const bool higher : {false, true}) {
+      if (higher ? place[k] <= box.high[k] - depth : place[k] >= box.low[k] + depth) continue;
+      (camera.faces(box, k, higher) ? front : behind) = true;
+    }
+  return front && !behind;
+}
+
+Camera camera_for(const OwnedFrame& frame, const PictureStyle& style, const Box3& box, const Area& area) {
   return frame.dimensions < 3 ? Camera::flat(box, area, style.camera.zoom)
                               : Camera::around(box, area, style.up, style.camera);
 }
@@ -96,17 +111,20 @@ Canvas draw_picture(const OwnedFrame& frame, double time, const PictureStyle& st
   if (!style.range && map.is_signed() && low < 0 && high > 0) low = -(high = std::max(-low, high));
 
   const Layout layout(style);
-  const Camera camera = camera_for(frame, style, layout.view);
+  const Box3 box = style.box ? *style.box : bounds_of(frame, style);
+  const Camera camera = camera_for(frame, style, box, layout.view);
+  const bool opened = frame.dimensions == 3 && style.walls == WallStyle::behind;
+  const double radius = 0.5 * diameter(frame.dimensions) * style.spacing;
   std::vector<Disc> discs;
   for (std::size_t i = 0; i < frame.particles; ++i) {
     const Vec<3> place = place_of(*frame.find(frame.position), frame.dimensions, i);
     if (!finite(place) || cut_away(style, place) || (walls[i] && style.walls == WallStyle::hidden)) continue;
+    if (opened && walls[i] && in_the_way(place, box, camera, wall_layers * style.spacing)) continue;
     const Seen seen = camera.see(place);
     if (!seen.ahead) continue;
-    const bool grey = (walls[i] && style.walls == WallStyle::grey) || !std::isfinite(values[i]);
+    const bool grey = (walls[i] && style.walls != WallStyle::coloured) || !std::isfinite(values[i]);
     const double share = high > low ? (values[i] - low) / (high - low) : 0.5;
-    discs.push_back({seen.x, seen.y, 0.5 * style.spacing * seen.scale, seen.depth, 0.5 * style.spacing,
-                     grey ? wall_grey : map.at(share)});
+    discs.push_back({seen.x, seen.y, radius * seen.scale, seen.depth, radius, grey ? wall_grey : map.at(share)});
   }
   Image image(style.width, style.height, paper);
   draw_discs(image, discs, frame.dimensions < 3 ? flat_shade : 1, paper);

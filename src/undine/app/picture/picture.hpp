@@ -9,7 +9,12 @@
 
 namespace undine {
 
-enum class WallStyle { grey, hidden, coloured };
+enum class WallStyle {
+  behind,  ///< grey; in 3-D without those between the viewer and what is in the box
+  grey,
+  coloured,
+  hidden
+};
 
 /// A plane across an axis, beyond which nothing is drawn.
 struct Cut {
@@ -24,11 +29,11 @@ struct PictureStyle {
   std::string map = "viridis";
   std::string title = {};
   int width = 1280, height = 720;
-  WallStyle walls = WallStyle::grey;
+  WallStyle walls = WallStyle::behind;
   std::optional<Cut> cut = {};
   CameraOptions camera = {};
   Vec<3> up{{0, 0, 1}};          ///< against gravity
-  double spacing = 0;            ///< diameter of a particle, m
+  double spacing = 0;            ///< of the particles, m
   std::optional<Box3> box = {};  ///< what fills the picture; the particles themselves where it is not given
   std::optional<std::pair<double, double>> range = {};  ///< of the colours; that of the fluid where it is not given
 };

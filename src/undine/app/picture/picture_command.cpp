@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -16,8 +18,10 @@ namespace undine {
 namespace {
 
 constexpr int largest_side = 8192;
-/// Diameter of a particle in spacings, as on the page: more than one, so that a fluid has no gaps.
-double diameter(int dimensions) { return dimensions < 3 ? 1.45 : 1.15; }
+const std::map<std::string, WallStyle> wall_styles{{"behind", WallStyle::behind},
+                                                   {"grey", WallStyle::grey},
+                                                   {"coloured", WallStyle::coloured},
+                                                   {"hidden", WallStyle::hidden}};
 
 [[noreturn]] void refuse(const std::string& option, const std::string& given, std::string fix) {
   throw InputError({.what = fmt::format("'{}' is no {}", given, option), .fix = std::move(fix)});
@@ -72,9 +76,7 @@ PictureStyle style_of(const PictureOptions& options, const RunFolder& run) {
   read_size(options.size, style);
   style.cut = read_cut(options.cut);
   style.camera.perspective = !options.orthographic;
-  style.walls = options.walls == "hidden"     ? WallStyle::hidden
-                : options.walls == "coloured" ? WallStyle::coloured
-                                              : WallStyle::grey;
+  style.walls = wall_styles.at(options.walls);
   style.up = upward(run);
   if (style.title.empty()) style.title = run.title();
   if (options.range.size() == 2) style.range = {options.range[0], options.range[1]};
@@ -134,8 +136,10 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
   command.add_option("--colour,--color", options.colour, "field: pressure, speed, density, v_x, ... (speed)");
   command.add_option("--map", options.map, "colour map: viridis, cividis, inferno, blue_red (viridis)");
   command.add_option("--range", options.range, "lowest and highest value of the colours")->expected(2);
-  command.add_option("--walls", options.walls, "wall particles: grey, coloured, hidden (grey)")
-      ->check(CLI::IsMember({"grey", "coloured", "hidden"}));
+  command
+      .add_option("--walls", options.walls,
+                  "wall particles: behind (grey, but not in front of the fluid), grey, coloured, hidden (behind)")
+      ->check(CLI::IsMember({"behind", "grey", "coloured", "hidden"}));
   command.add_option("--cut", options.cut, "what is cut away: 'y>0.5' or 'x<1', in m");
   command.add_option("--size", options.size, "pixels (1280x720)");
   command.add_option("--title", options.title, "the case's title unless said");
@@ -155,7 +159,7 @@ int picture_command(const PictureOptions& options) {
   const StoredTime& chosen =
       run.frames[options.time < 0 && !run.frames.empty() ? run.frames.size() - 1 : run.nearest(options.time)];
   const OwnedFrame frame = read_snapshot(chosen.file);
-  style.spacing = diameter(frame.dimensions) * run.spacing(frame);
+  style.spacing = run.spacing(frame);
   if (!options.out.empty()) {
     draw_picture(frame, chosen.time, style).write_png(options.out);
     fmt::print("{}: t = {:.6g} s\n", options.out.string(), chosen.time);

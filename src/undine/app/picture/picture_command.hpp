@@ -14,7 +14,7 @@ struct PictureOptions {
   std::filesystem::path folder, out, movie;
   double time = -1;  ///< s; below 0: the last snapshot
   double rate = 12;  ///< pictures per second of a movie
-  std::string colour = "v", map = "viridis", walls = "grey", cut, size = "1280x720", title;
+  std::string colour = "v", map = "viridis", walls = "behind", cut, size = "1280x720", title;
   std::vector<double> range;  ///< two numbers, or none
   CameraOptions camera;
   bool orthographic = false;
