@@ -8,8 +8,6 @@ import { Legend } from "./legend";
 import { Scene } from "./scene";
 
 const framesPerSecond = 8;
-/** Layers of wall particles that are left out between the viewer and the fluid. */
-const wallLayers = 4;
 /** Diameter of a particle in spacings: more than one, so that a fluid has no gaps. */
 const diameterOf = (dimensions: number) => (dimensions < 3 ? 1.45 : 1.15);
 
@@ -20,6 +18,12 @@ function upward(data: RunData, dimensions: number): Vector3 {
   const largest = gravity.reduce((best, value, k) => (Math.abs(value) > Math.abs(gravity[best] ?? 0) ? k : best), 0);
   if (dimensions === 3 && Math.abs(gravity[largest] ?? 0) > 0) up.set(0, 0, 0).setComponent(largest, gravity[largest] < 0 ? 1 : -1);
   return up;
+}
+
+/** The most layers that a wall has. */
+function wallLayers(data: RunData): number {
+  const layers = Object.entries(data.run.resolved ?? {}).filter(([key]) => /^wall\[\d+\]\.layers$/.test(key)).map(([, value]) => Number(value));
+  return Math.max(1, ...layers.filter(Number.isFinite));
 }
 
 export class ParticlePanel {
@@ -206,7 +210,7 @@ export class ParticlePanel {
     if (frame !== this.frame) return;
     const kept = this.walls === "hidden" ? frame.position.map((x, i) => (frame.group[Math.floor(i / 3)] === 1 ? NaN : x)) : frame.position;
     this.scene.setParticles(kept, this.walls === "coloured" ? new Float32Array(frame.count) : frame.group);
-    this.scene.setOpenWalls(this.walls === "behind" ? wallLayers * this.particles.spacing : 0);
+    this.scene.setOpenWalls(this.walls === "behind" ? (wallLayers(this.data) - 0.5) * this.particles.spacing : 0);
     this.scene.setValues(value);
     const text = `t = ${withUnit(frame.info.time, "s", 5)}`;
     this.slider.value = String(this.at);

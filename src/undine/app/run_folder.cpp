@@ -1,6 +1,7 @@
 #include "undine/app/run_folder.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -92,6 +93,17 @@ double RunFolder::spacing(const OwnedFrame& frame) const {
   double extent = 0;
   for (const double value : x->data) extent = std::max(extent, std::abs(value));
   return extent / std::pow(static_cast<double>(std::max<std::size_t>(frame.particles, 1)), 1.0 / frame.dimensions);
+}
+
+int RunFolder::wall_layers() const {
+  int most = 1;
+  for (int k = 0;; ++k) {
+    const auto layers = resolved(fmt::format("wall[{}].layers", k));
+    if (!layers) return most;
+    int value = 0;
+    std::from_chars(layers->data(), layers->data() + layers->size(), value);
+    most = std::max(most, value);
+  }
 }
 
 std::size_t RunFolder::nearest(double time) const {

@@ -30,6 +30,8 @@ struct RunFolder {
   std::string title() const;
   /// The case's spacing (m), or the size of the first fluid particle by its mass and density.
   double spacing(const OwnedFrame& frame) const;
+  /// The most layers of particles that a wall of the case has.
+  int wall_layers() const;
   /// The value of a key of the case as it was resolved.
   std::optional<std::string> resolved(const std::string& key) const;
   /// Index of the snapshot nearest to a time (s). Throws InputError where there are none.

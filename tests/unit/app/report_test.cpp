@@ -119,7 +119,9 @@ TEST(Fit, thins_no_more_than_it_must) {
       const Thinning thin = fit(20 * megabyte, frames, particles, 30, 14);
       const double bytes = thin.share * static_cast<double>(particles * thin.frames) * 14;
       EXPECT_LE(bytes, 20e6);
-      if (thin.share < 1 || thin.frames < frames) EXPECT_GE(bytes, 17e6) << particles << " x " << frames;
+      if (thin.share < 1 || thin.frames < frames) {
+        EXPECT_GE(bytes, 17e6) << particles << " x " << frames;
+      }
       EXPECT_GE(thin.frames, std::min<std::size_t>(frames, 10));
     }
 }

@@ -15,7 +15,6 @@ namespace {
 
 constexpr Colour paper{1, 1, 1}, ink{0.10, 0.14, 0.19}, wall_grey{0.76, 0.79, 0.82}, edge_grey{0.60, 0.65, 0.70};
 constexpr double flat_shade = 0.25;
-constexpr double wall_layers = 4;  ///< that are left out between the viewer and the fluid
 
 /// Sizes that follow that of the picture.
 struct Layout {
@@ -119,7 +118,7 @@ Canvas draw_picture(const OwnedFrame& frame, double time, const PictureStyle& st
   for (std::size_t i = 0; i < frame.particles; ++i) {
     const Vec<3> place = place_of(*frame.find(frame.position), frame.dimensions, i);
     if (!finite(place) || cut_away(style, place) || (walls[i] && style.walls == WallStyle::hidden)) continue;
-    if (opened && walls[i] && in_the_way(place, box, camera, wall_layers * style.spacing)) continue;
+    if (opened && walls[i] && in_the_way(place, box, camera, style.wall_layers * style.spacing)) continue;
     const Seen seen = camera.see(place);
     if (!seen.ahead) continue;
     const bool grey = (walls[i] && style.walls != WallStyle::coloured) || !std::isfinite(values[i]);

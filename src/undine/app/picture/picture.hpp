@@ -33,6 +33,7 @@ struct PictureStyle {
   std::optional<Cut> cut = {};
   CameraOptions camera = {};
   Vec<3> up{{0, 0, 1}};          ///< against gravity
+  int wall_layers = 3;           ///< of particles, the most that a wall has
   double spacing = 0;            ///< of the particles, m
   std::optional<Box3> box = {};  ///< what fills the picture; the particles themselves where it is not given
   std::optional<std::pair<double, double>> range = {};  ///< of the colours; that of the fluid where it is not given

@@ -78,6 +78,7 @@ PictureStyle style_of(const PictureOptions& options, const RunFolder& run) {
   style.camera.perspective = !options.orthographic;
   style.walls = wall_styles.at(options.walls);
   style.up = upward(run);
+  style.wall_layers = run.wall_layers();
   if (style.title.empty()) style.title = run.title();
   if (options.range.size() == 2) style.range = {options.range[0], options.range[1]};
   if (style.range && !(style.range->first < style.range->second))
