@@ -52,7 +52,8 @@ std::vector<double> gathered(const OwnedColumn& column, const std::vector<std::s
 Json ranges_of(const OwnedColumn& column, const std::vector<char>& walls) {
   Json all = Json::array();
   for (int part = 0; part <= (column.components == 1 ? 0 : column.components); ++part) {
-    const std::vector<double> values = scalar_values(column, part);
+    const std::vector<double> copied = column.components == 1 ? std::vector<double>() : scalar_values(column, part);
+    const std::vector<double>& values = column.components == 1 ? column.data : copied;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (walls[i] || !std::isfinite(values[i])) continue;
@@ -149,25 +150,19 @@ Thinning fit(std::size_t room, std::size_t frames, std::size_t particles, double
   return thin;
 }
 
-Json particles_header(const RunFolder& run) {
-  if (run.frames.empty()) return nullptr;
-  const OwnedFrame first = read_snapshot(run.frames.front().file), last = read_snapshot(run.frames.back().file);
-  Bounds bounds(last.dimensions);
+Json particles_header(const RunFolder& run, const OwnedFrame& first) {
+  const OwnedFrame last = read_positions(run.frames.back().file);
+  Bounds bounds(first.dimensions);
   bounds.add(*first.find(first.position));
   bounds.add(*last.find(last.position));
-  Json frames = Json::array();
-  for (const StoredTime& stored : run.frames)
-    frames.push_back({{"time", stored.time}, {"step", 0}, {"parts", Json::array()}, {"ranges", Json::object()}});
-  return {{"dimensions", last.dimensions},
-          {"spacing", run.spacing(last)},
+  return {{"dimensions", first.dimensions},
+          {"spacing", run.spacing(first)},
           {"low", bounds.low()},
           {"high", bounds.high()},
-          {"stored", last.particles},
-          {"shown", last.particles},
-          {"frames_stored", run.frames.size()},
+          {"stored", first.particles},
+          {"shown", first.particles},
           {"rounded", false},
-          {"fields", fields_json(last)},
-          {"frames", std::move(frames)}};
+          {"fields", fields_json(first)}};
 }
 
 Json particles_of(const RunFolder& run, std::size_t room, Blocks& blocks, std::vector<std::string>& notes) {

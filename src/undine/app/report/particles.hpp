@@ -13,8 +13,8 @@ namespace undine {
 /// no snapshots. What was left out is said in `notes`.
 Json particles_of(const RunFolder& run, std::size_t room, Blocks& blocks, std::vector<std::string>& notes);
 
-/// What there is of particles, and when: as above, but for the particles. Null if there are no snapshots.
-Json particles_header(const RunFolder& run);
+/// What there is of particles: as above, without times. `first` is the first snapshot.
+Json particles_header(const RunFolder& run, const OwnedFrame& first);
 
 /// How many of its particles and times a page shows, and how.
 struct Thinning {

@@ -27,6 +27,14 @@ Json times_of(const RunFolder& run) {
   return times;
 }
 
+/// Times without their particles, which are sent when asked for.
+Json times_json(const RunFolder& run) {
+  Json frames = Json::array();
+  for (const StoredTime& stored : run.frames)
+    frames.push_back({{"time", stored.time}, {"step", 0}, {"parts", Json::array()}, {"ranges", Json::object()}});
+  return frames;
+}
+
 /// What the run last said of its progress; null where it says nothing.
 Json progress_of(const fs::path& folder) {
   const fs::path file = folder / "progress.json";
@@ -37,12 +45,32 @@ Json progress_of(const fs::path& folder) {
 
 ViewData::ViewData(fs::path folder) : folder_(std::move(folder)) { RunFolder::open(folder_); }
 
+const OwnedFrame& ViewData::read(const RunFolder& run, std::size_t number) const {
+  const StoredTime& stored = run.frames[number];
+  if (stored.file != kept_stored_.file || stored.time != kept_stored_.time) {
+    kept_stored_ = {};
+    kept_ = read_snapshot(stored.file);
+    kept_stored_ = stored;
+  }
+  return kept_;
+}
+
+/// Bounds and fields are those of the first time that somebody asked; only the times grow.
+Json ViewData::header(const RunFolder& run) const {
+  if (run.frames.empty()) return nullptr;
+  if (header_.is_null()) header_ = particles_header(run, read(run, 0));
+  Json now = header_;
+  now["frames_stored"] = run.frames.size();
+  now["frames"] = times_json(run);
+  return now;
+}
+
 std::string ViewData::all() const {
   const std::lock_guard lock(reading_);
   const RunFolder run = RunFolder::open(folder_);
   Blocks blocks;
   Json data = run_series(run, blocks);
-  data["particles"] = particles_header(run);
+  data["particles"] = header(run);
   data["notes"] = Json::array();
   data["progress"] = progress_of(folder_);
   return with_blocks(std::move(data), blocks);
@@ -61,7 +89,7 @@ std::string ViewData::frame(std::size_t number, std::size_t most) const {
   if (number >= run.frames.size())
     throw InputError({.what = fmt::format("there is no snapshot {}", number),
                       .why = fmt::format("the run has {}", run.frames.size())});
-  const OwnedFrame frame = read_snapshot(run.frames[number].file);
+  const OwnedFrame& frame = read(run, number);
   Thinning thin{.frames = 1};
   if (frame.particles > most) thin.share = static_cast<double>(most) / static_cast<double>(frame.particles);
   Blocks blocks;

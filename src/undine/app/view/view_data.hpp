@@ -23,8 +23,14 @@ class ViewData {
   std::string frame(std::size_t number, std::size_t most) const;
 
  private:
+  const OwnedFrame& read(const RunFolder& run, std::size_t number) const;
+  Json header(const RunFolder& run) const;
+
   std::filesystem::path folder_;
-  mutable std::mutex reading_;  ///< HDF5 is for one thread at a time
+  mutable std::mutex reading_;      ///< for what follows; and HDF5 is for one thread at a time
+  mutable OwnedFrame kept_;         ///< the snapshot that was read last, so that showing more of it reads nothing
+  mutable StoredTime kept_stored_;  ///< where it is from
+  mutable Json header_;             ///< of the particles, as it was first; null before
 };
 
 }  // namespace undine
