@@ -60,6 +60,9 @@ try {
   await page.locator("select.range").selectOption("now");
   await settled();
   readings.pressureNow = await legend();
+  await page.locator("select.range").selectOption("inner");
+  await settled();
+  readings.pressureInner = await legend();
   await page.locator("select.field").selectOption("v/1");
   await page.locator("select.map").selectOption("blue_red");
   await settled();

@@ -55,7 +55,7 @@ class Picture(unittest.TestCase):
     def test_every_choice_shows(self):
         seen = {self.draw("a.png", self.spatial)}
         for k, words in enumerate((["--colour", "pressure"], ["--map", "inferno"], ["--time", "0"], ["--walls", "hidden"], ["--walls", "grey"], ["--walls", "coloured"],
-                                   ["--cut", "y>0.4"], ["--range", "0", "9"], ["--azimuth", "60"], ["--elevation", "70"], ["--zoom", "2"],
+                                   ["--cut", "y>0.4"], ["--range", "0", "9"], ["--inner"], ["--azimuth", "60"], ["--elevation", "70"], ["--zoom", "2"],
                                    ["--orthographic"], ["--title", "Other"])):
             seen.add(self.draw("b.png", self.spatial, *words))
             self.assertEqual(len(seen), k + 2, words)

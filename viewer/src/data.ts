@@ -56,8 +56,9 @@ export interface FrameInfo {
   step: number;
   /** None yet where they are asked for one time after the other. */
   parts: Part[];
-  /** Of all fluid particles, also of those that are not on the page: magnitude first, then each component. */
-  ranges: Record<string, [number, number][]>;
+  /** Of all fluid particles, also of those that are not on the page: magnitude first, then each component; `inner`
+   * leaves out the lowest and the highest hundredth. */
+  ranges: Record<string, [low: number, high: number, innerLow: number, innerHigh: number][]>;
 }
 
 export interface Particles {

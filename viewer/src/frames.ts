@@ -69,14 +69,14 @@ export function scalar(values: Float32Array, components: number, part: number): 
   return out;
 }
 
-/** The range over the fluid, at one time or at all. */
-export function rangeOf(frames: FrameInfo[], field: string, part: number): [number, number] {
+/** The range over the fluid, at one time or at all; `inner`: without the lowest and the highest hundredth. */
+export function rangeOf(frames: FrameInfo[], field: string, part: number, inner: boolean): [number, number] {
   let low = Infinity, high = -Infinity;
   for (const frame of frames) {
     const range = frame.ranges[field]?.[part];
     if (!range || range[0] === null) continue;
-    low = Math.min(low, range[0]);
-    high = Math.max(high, range[1]);
+    low = Math.min(low, range[inner ? 2 : 0]);
+    high = Math.max(high, range[inner ? 3 : 1]);
   }
   return low <= high ? [low, high] : [0, 1];
 }

@@ -53,7 +53,7 @@ export class ParticlePanel {
   private field: Field;
   private part = 0;
   private map = "viridis";
-  private range: "all" | "now" | "own" = "all";
+  private range: "all" | "now" | "inner" | "own" = "all";
   private walls: "behind" | "plain" | "hidden" | "coloured";
   private clip = { axis: -1, share: 0.5, side: 1 };
   private chosen: number | null = null;
@@ -106,7 +106,7 @@ export class ParticlePanel {
     fieldSelect.classList.add("field");
     const mapSelect = select(colourMaps.map((map) => [map.name, map.name.replace("_", " to ")]), this.map, (value) => { this.map = value; this.recolour(); });
     mapSelect.classList.add("map");
-    const rangeSelect = select([["all", "of all times"], ["now", "of this time"], ["own", "as typed"]], this.range, (value) => { this.range = value as typeof this.range; this.recolour(); });
+    const rangeSelect = select([["all", "of all times"], ["now", "of this time"], ["inner", "of all times, inner 98 %"], ["own", "as typed"]], this.range, (value) => { this.range = value as typeof this.range; this.recolour(); });
     rangeSelect.classList.add("range");
     const wallSelect = select([...(this.particles.dimensions === 3 ? [["behind", "grey, but in front"] as [string, string]] : []), ["plain", "grey"], ["coloured", "coloured"], ["hidden", "hidden"]], this.walls, (value) => { this.walls = value as typeof this.walls; void this.refill(); });
     wallSelect.classList.add("walls");
@@ -224,7 +224,7 @@ export class ParticlePanel {
 
   private recolour(): void {
     const frames = this.range === "now" && this.frame ? [this.frame.info] : this.particles.frames;
-    let [low, high] = rangeOf(frames, this.field.name, this.part);
+    let [low, high] = rangeOf(frames, this.field.name, this.part, this.range === "inner");
     if (this.range === "own") [low, high] = [Number(this.lowInput.value), Number(this.highInput.value)];
     const map = colourMap(this.map);
     if (this.range !== "own") {

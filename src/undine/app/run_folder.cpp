@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -152,6 +153,22 @@ std::vector<double> scalar_values(const OwnedColumn& column, int part) {
     values[i] = part > 0 ? row[part - 1] : std::sqrt(sum);
   }
   return values;
+}
+
+FluidRange fluid_range(const std::vector<double>& values, const std::vector<char>& walls) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> kept;
+  kept.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!walls[i] && std::isfinite(values[i])) kept.push_back(values[i]);
+  if (kept.empty()) return {infinity, -infinity, infinity, -infinity};
+  const std::size_t last = kept.size() - 1, lower = last / 100, upper = last - lower;
+  const auto nth = [&](std::size_t n) {
+    std::ranges::nth_element(kept, kept.begin() + static_cast<std::ptrdiff_t>(n));
+    return kept[n];
+  };
+  const auto [low, high] = std::ranges::minmax(kept);
+  return {low, high, nth(lower), nth(upper)};
 }
 
 std::vector<char> walls_of(const OwnedFrame& frame) {

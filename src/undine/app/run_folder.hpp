@@ -53,6 +53,13 @@ std::string scalar_label(const ScalarChoice& choice, int components);
 /// One number per particle.
 std::vector<double> scalar_values(const OwnedColumn& column, int part);
 
+/// Of the finite values of the fluid; `inner` without the lowest and the highest hundredth. Infinite, the wrong way
+/// round, where there are none.
+struct FluidRange {
+  double low, high, inner_low, inner_high;
+};
+FluidRange fluid_range(const std::vector<double>& values, const std::vector<char>& walls);
+
 /// 1 for wall particles, 0 for others.
 std::vector<char> walls_of(const OwnedFrame& frame);
 

@@ -89,15 +89,9 @@ Box3 bounds_of(const OwnedFrame& frame, const PictureStyle& style) {
 
 std::pair<double, double> range_of(const OwnedFrame& frame, const PictureStyle& style) {
   const ScalarChoice choice = find_scalar(frame, style.colour);
-  const std::vector<double> values = scalar_values(*frame.find(choice.field), choice.part);
-  const std::vector<char> walls = walls_of(frame);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (walls[i] || !std::isfinite(values[i])) continue;
-    low = std::min(low, values[i]);
-    high = std::max(high, values[i]);
-  }
-  return low <= high ? std::pair(low, high) : std::pair(0.0, 1.0);
+  const FluidRange range = fluid_range(scalar_values(*frame.find(choice.field), choice.part), walls_of(frame));
+  if (!(range.low <= range.high)) return {0.0, 1.0};
+  return style.inner ? std::pair(range.inner_low, range.inner_high) : std::pair(range.low, range.high);
 }
 
 Canvas draw_picture(const OwnedFrame& frame, double time, const PictureStyle& style) {

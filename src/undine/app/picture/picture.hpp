@@ -36,6 +36,7 @@ struct PictureStyle {
   int wall_layers = 3;           ///< of particles, the most that a wall has
   double spacing = 0;            ///< of the particles, m
   std::optional<Box3> box = {};  ///< what fills the picture; the particles themselves where it is not given
+  bool inner = false;            ///< whether the range leaves out the lowest and the highest hundredth of the fluid
   std::optional<std::pair<double, double>> range = {};  ///< of the colours; that of the fluid where it is not given
 };
 

@@ -78,6 +78,7 @@ PictureStyle style_of(const PictureOptions& options, const RunFolder& run) {
   style.camera.perspective = !options.orthographic;
   style.walls = wall_styles.at(options.walls);
   style.up = upward(run);
+  style.inner = options.inner;
   style.wall_layers = run.wall_layers();
   if (style.title.empty()) style.title = run.title();
   if (options.range.size() == 2) style.range = {options.range[0], options.range[1]};
@@ -137,6 +138,8 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
   command.add_option("--colour,--color", options.colour, "field: pressure, speed, density, v_x, ... (speed)");
   command.add_option("--map", options.map, "colour map: viridis, cividis, inferno, blue_red (viridis)");
   command.add_option("--range", options.range, "lowest and highest value of the colours")->expected(2);
+  command.add_flag("--inner", options.inner,
+                   "range of the colours without the lowest and highest hundredth of the fluid");
   command
       .add_option("--walls", options.walls,
                   "wall particles: behind (grey, but not in front of the fluid), grey, coloured, hidden (behind)")

@@ -17,7 +17,7 @@ struct PictureOptions {
   std::string colour = "v", map = "viridis", walls = "behind", cut, size = "1280x720", title;
   std::vector<double> range;  ///< two numbers, or none
   CameraOptions camera;
-  bool orthographic = false;
+  bool orthographic = false, inner = false;
 };
 
 void add_picture_options(CLI::App& command, PictureOptions& options);

@@ -48,19 +48,13 @@ std::vector<double> gathered(const OwnedColumn& column, const std::vector<std::s
   return values;
 }
 
-/// Lowest and highest over all fluid particles: the value, or the magnitude and then each component.
+/// Of all fluid particles lowest, highest, and the same of the inner 98 %: the value, or the magnitude and then each
+/// component.
 Json ranges_of(const OwnedColumn& column, const std::vector<char>& walls) {
   Json all = Json::array();
   for (int part = 0; part <= (column.components == 1 ? 0 : column.components); ++part) {
-    const std::vector<double> copied = column.components == 1 ? std::vector<double>() : scalar_values(column, part);
-    const std::vector<double>& values = column.components == 1 ? column.data : copied;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (walls[i] || !std::isfinite(values[i])) continue;
-      low = std::min(low, values[i]);
-      high = std::max(high, values[i]);
-    }
-    all.push_back({low, high});
+    const FluidRange range = fluid_range(scalar_values(column, part), walls);
+    all.push_back({range.low, range.high, range.inner_low, range.inner_high});
   }
   return all;
 }
