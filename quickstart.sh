@@ -6,8 +6,10 @@ cd -P "$(dirname "${BASH_SOURCE[0]}")"
 
 main_case=cases/dam_break/spheric2.toml
 build_packages=(g++ cmake ninja-build ccache libtomlplusplus-dev libcli11-dev libfmt-dev libhdf5-dev libeigen3-dev
-  libgtest-dev libgmock-dev librapidcheck-dev nlohmann-json3-dev zlib1g-dev pkg-config)
-test_packages=(clang-format python3 python3-vtk9 python3-h5py python3-numpy)
+  libgtest-dev libgmock-dev librapidcheck-dev nlohmann-json3-dev zlib1g-dev libcairo2-dev libcpp-httplib-dev pkg-config)
+test_packages=(clang-format python3 python3-vtk9 python3-h5py python3-numpy chromium ffmpeg)
+# Where another source brought npm with its nodejs, Debian's npm would not go with it.
+if ! command -v npm >/dev/null; then test_packages+=(nodejs npm); fi
 seconds_per_test=900
 passed=0
 failed=0

@@ -1,6 +1,7 @@
 #include "undine/app/gauges.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -123,6 +124,23 @@ void GaugeSet<N>::set_paths(const fs::path& folder) {
     throw Error(
         {.what = fmt::format("cannot make the folder '{}'", (folder / "gauges").string()), .why = failure.message()});
   for (Entry& entry : entries_) entry.path = folder / "gauges" / (entry.name + ".csv");
+  write_references(folder / "gauges" / "reference");
+}
+
+template <int N>
+void GaugeSet<N>::write_references(const fs::path& folder) const {
+  std::error_code failure;
+  fs::remove_all(folder, failure);
+  for (const Entry& entry : entries_) {
+    if (!entry.reference) continue;
+    fs::create_directories(folder, failure);
+    const auto columns = file_columns(*entry.gauge);
+    const auto column = std::ranges::find(columns, entry.reference->column, &SeriesColumn::name);
+    TimeSeries file = TimeSeries::create(folder / (entry.name + ".csv"), {columns.front(), *column});
+    const Samples compared =
+        between(finite(entry.reference->samples), -std::numeric_limits<double>::infinity(), entry.reference->until);
+    for (std::size_t k = 0; k < compared.times.size(); ++k) file.add(std::array{compared.times[k], compared.values[k]});
+  }
 }
 
 template <int N>

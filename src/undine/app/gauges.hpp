@@ -21,7 +21,7 @@ class GaugeSet {
   /// Reads and checks the tables and their reference data; writes nothing. Throws InputError.
   GaugeSet(const Table& root, const GaugeContext<N>& context);
 
-  /// Starts new files. Throws Error.
+  /// Starts new files, and leaves the reference data beside them. Throws Error.
   void create(const std::filesystem::path& folder);
   /// Goes on with the files of an earlier run, without their rows later than last_time (s). Throws Error, InputError.
   void resume(const std::filesystem::path& folder, double last_time);
@@ -61,6 +61,8 @@ class GaugeSet {
   static Reference read_reference(const Table& table, const std::vector<SeriesColumn>& columns);
   static std::vector<SeriesColumn> file_columns(const Gauge<N>& gauge);
   void set_paths(const std::filesystem::path& folder);
+  /// DIR/gauges/reference/NAME.csv: the published data as they are compared, so that the folder shows them by itself.
+  void write_references(const std::filesystem::path& folder) const;
 
   std::vector<Entry> entries_;
 };

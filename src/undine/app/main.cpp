@@ -9,8 +9,11 @@
 #include "undine/app/bench_search.hpp"
 #include "undine/app/exact.hpp"
 #include "undine/app/lists.hpp"
+#include "undine/app/picture/picture_command.hpp"
+#include "undine/app/report/report.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/app/study/study.hpp"
+#include "undine/app/view/view.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/io/checksum.hpp"
@@ -54,6 +57,7 @@ int execute(int argc, char** argv) {
   add_case_options(*run, run_options);
   run->add_flag("--resume", run_options.resume, "go on from the newest checkpoint of the output folder");
   run->add_flag("--overwrite", run_options.overwrite, "replace an earlier run in the output folder");
+  run->add_flag("!--no-report", run_options.report, "write no report.html at the end");
   run->add_flag("--quiet", quiet, "print errors only");
   run->add_flag("--json", json, "progress as one JSON object per line");
 
@@ -94,6 +98,23 @@ int execute(int argc, char** argv) {
   auto* approximate =
       app.add_subcommand("approximate", "fields and derivatives at other points, from scattered points");
   add_approximate_options(*approximate, approximate_options);
+  ReportOptions report_options;
+  auto* report = app.add_subcommand("report", "write a page that shows a run or a study, with everything in it");
+  report->add_option("folder", report_options.folder, "of a run or a study")->required();
+  report->add_option("-o,--out", report_options.out, "file; report.html in the folder unless said");
+  report->add_option("--max-mb", report_options.megabytes, "largest size in MB (20); what does not fit is thinned out")
+      ->check(CLI::Range(1.0, 1000.0));
+
+  ViewOptions view_options;
+  auto* view = app.add_subcommand("view", "show a run, also while it goes on, to a browser on this machine");
+  view->add_option("folder", view_options.folder, "of a run")->required();
+  view->add_flag("--follow", view_options.follow, "go on to each new snapshot");
+  view->add_option("--port", view_options.port, "to listen on; any free one unless said")->check(CLI::Range(0, 65535));
+  view->add_option("--host", view_options.host, "address to listen on (127.0.0.1); others let other machines in");
+
+  PictureOptions picture_options;
+  auto* picture = app.add_subcommand("picture", "draw the particles of a run, as a picture or a movie");
+  add_picture_options(*picture, picture_options);
 
   BenchOptions bench_options;
   auto* bench = app.add_subcommand("bench", "time the hot loops on this machine");
@@ -130,6 +151,9 @@ int execute(int argc, char** argv) {
   if (bench_search->parsed()) return run_bench_search(bench_search_options);
   if (exact->parsed()) return run_exact(exact_options);
   if (approximate->parsed()) return run_approximate(approximate_options);
+  if (report->parsed()) return report_command(report_options);
+  if (view->parsed()) return view_command(view_options);
+  if (picture->parsed()) return picture_command(picture_options);
   if (bench->parsed()) return run_bench(bench_options);
   return exit_ok;
 }

@@ -12,6 +12,8 @@
 #include "undine/app/case_setup.hpp"
 #include "undine/app/gauges.hpp"
 #include "undine/app/gauges/context.hpp"
+#include "undine/app/machine.hpp"
+#include "undine/app/report/report.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/app/run_output.hpp"
 #include "undine/core/error.hpp"
@@ -90,6 +92,7 @@ class Run {
 
     const double resumed_at = checkpoint_ ? flow_->time() : -1;
     EnergySeries<N> energies(output_.folder, checkpoint_.has_value(), resumed_at);
+    StepSeries steps(output_.folder, checkpoint_.has_value(), resumed_at);
     SeriesFile series = checkpoint_ ? SeriesFile::resume(output_.folder / "particles.vtkhdf.series", resumed_at)
                                     : SeriesFile::create(output_.folder / "particles.vtkhdf.series");
     if (checkpoint_) {
@@ -109,11 +112,12 @@ class Run {
     std::signal(SIGTERM, on_signal);
     Step step = flow_->stable_step(setup_.choice.limits);
     double before = fresh ? -1 : flow_->time();
+    progress_start_ = flow_->time();
     record("running", start, energies);
     int code = exit_ok;
     try {
       while (true) {
-        write_due(before, energies, series, step);
+        write_due(before, energies, steps, series, step);
         const bool last = flow_->time() >= setup_.choice.end * (1 - 1e-12) || interrupted;
         if (last || (due(output_.checkpoints, before, flow_->time()) && flow_->time() > 0)) write_checkpoint(energies);
         if (last) break;
@@ -129,12 +133,14 @@ class Run {
     } catch (const RunError&) {
       record("went bad", start, energies);
       if (options_.verbosity == Verbosity::normal) fmt::print(stderr, "\n");
+      report();
       throw;
     }
     if (interrupted) code = exit_interrupted;
     progress(start, step, true);
     record(interrupted ? "interrupted" : "finished", start, energies);
     summarise(start, energies);
+    if (!interrupted) report();
     return code;
   }
 
@@ -201,9 +207,13 @@ class Run {
     fmt::print("  loops       {}\n  neighbours  {}\n", flow_->describe_sweeps(), flow_->neighbours().describe());
   }
 
-  void write_due(double before, EnergySeries<N>& energies, SeriesFile& series, const Step& step) {
+  void write_due(double before, EnergySeries<N>& energies, StepSeries& steps, SeriesFile& series, const Step& step) {
     const double now = flow_->time();
-    if (due(output_.energies, before, now)) energies.add(*flow_, step, step_);
+    if (due(output_.energies, before, now)) {
+      energies.add(*flow_, step, step_);
+      const auto& store = flow_->store();
+      steps.add(now, step_, step, store.range(Group::fluid).size(), store.range(Group::wall).size());
+    }
     gauges_.sample(*flow_);
     if (!due(output_.snapshots, before, now)) return;
     const auto watch = Clock::now();
@@ -238,30 +248,40 @@ class Run {
 
   double rate(Clock::time_point start) const { return particle_updates_ / std::max(1e-9, seconds_since(start)); }
 
+  /// Seconds that the rest takes at the pace so far.
+  double remaining(Clock::time_point start) const {
+    const double done = flow_->time() - progress_start_, left = setup_.choice.end - flow_->time();
+    return done > 0 ? std::max(0.0, seconds_since(start) * left / done) : 0;
+  }
+
+  std::string progress_line(Clock::time_point start, const Step& step) const {
+    return to_line(Json{{"time", flow_->time()},
+                        {"end", setup_.choice.end},
+                        {"step", step_},
+                        {"dt", step.dt},
+                        {"limiter", step.limiter},
+                        {"rate", rate(start)},
+                        {"remaining_s", remaining(start)}});
+  }
+
+  /// Says how far the run is: to whoever follows it, once a second, and to its user.
   void progress(Clock::time_point start, const Step& step, bool last) {
+    if (last || seconds_since(last_file_) >= 1) {
+      last_file_ = Clock::now();
+      write_progress(output_.folder, progress_line(start, step));
+    }
     if (options_.verbosity == Verbosity::quiet) return;
     const bool terminal = isatty(STDOUT_FILENO) != 0;
     const double wait = terminal ? 0.5 : 10.0;
     if (!last && seconds_since(last_progress_) < wait) return;
     last_progress_ = Clock::now();
-    const double t = flow_->time(), end = setup_.choice.end;
-    const double elapsed = seconds_since(start), began = progress_start_ < 0 ? t : progress_start_;
-    if (progress_start_ < 0) progress_start_ = t;
-    const double remaining = t > began ? elapsed * (end - t) / (t - began) : 0;
     if (options_.verbosity == Verbosity::json) {
-      const Json line{{"time", t},
-                      {"end", end},
-                      {"step", step_},
-                      {"dt", step.dt},
-                      {"limiter", step.limiter},
-                      {"rate", rate(start)},
-                      {"remaining_s", remaining}};
-      fmt::print("{}\n", to_line(line));
+      fmt::print("{}\n", progress_line(start, step));
     } else {
       fmt::print(
           "{}  t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
-          terminal ? "\r" : "", t, end, step_, step.dt, step.limiter, rate(start) * 1e-6, std::max(0.0, remaining),
-          terminal && !last ? "" : "\n");
+          terminal ? "\r" : "", flow_->time(), setup_.choice.end, step_, step.dt, step.limiter, rate(start) * 1e-6,
+          remaining(start), terminal && !last ? "" : "\n");
     }
     std::fflush(stdout);
   }
@@ -270,6 +290,7 @@ class Run {
     Json resolved = Json::object();
     for (const auto& [key, value] : document_.resolved()) resolved[key] = value;
     const Energies e = flow_->energies();
+    const Machine machine = this_machine();
     Json stages = Json::array();
     for (const auto& stage : flow_->plan().stages())
       stages.push_back({{"name", stage.name}, {"reads", stage.reads.text()}, {"writes", stage.writes.text()}});
@@ -283,6 +304,11 @@ class Run {
                     {"warnings", setup_.warnings},
                     {"stages", stages},
                     {"threads", omp_get_max_threads()},
+                    {"machine",
+                     {{"processor", machine.processor},
+                      {"cores", machine.cores},
+                      {"memory_gb", machine.memory_gb},
+                      {"system", machine.system}}},
                     {"particles",
                      {{"fluid", flow_->store().range(Group::fluid).size()},
                       {"wall", flow_->store().range(Group::wall).size()}}},
@@ -324,6 +350,17 @@ class Run {
     fmt::print("results in {}\n", output_.folder.string());
   }
 
+  /// The page that shows the run. A run is as good as ever without it.
+  void report() const {
+    if (!output_.report) return;
+    try {
+      const WrittenReport written = write_report({.folder = output_.folder, .out = {}});
+      if (options_.verbosity == Verbosity::normal) fmt::print("to look at in {}\n", written.file.string());
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "warning: no report was written: {}\n", error.what());
+    }
+  }
+
   Document& document_;
   const RunOptions& options_;
   CaseSetup<N> setup_;
@@ -333,8 +370,8 @@ class Run {
   std::optional<OwnedCheckpoint> checkpoint_;
   std::unique_ptr<WeaklyCompressible<N>> flow_;
   std::int64_t step_ = 0;
-  double particle_updates_ = 0, seconds_output_ = 0, first_step_ = 0, progress_start_ = -1;
-  Clock::time_point last_progress_ = Clock::now();
+  double particle_updates_ = 0, seconds_output_ = 0, first_step_ = 0, progress_start_ = 0;
+  Clock::time_point last_progress_ = Clock::now(), last_file_ = {};
 };
 
 /// Loads the case and calls f(run) for a run of its dimensions.

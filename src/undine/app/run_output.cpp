@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -22,6 +24,17 @@ const std::vector<std::string> energy_comments{
     "strain_dissipation: integral of 2 mu D:D over fluid and time; saalfeld_dissipation: integral of mu D:D over the "
     "fluid, as printed in his eq. 51;",
     "both 0 unless output.strain_dissipation = true"};
+
+std::vector<SeriesColumn> step_columns() {
+  return {{"time", "s"}, {"step"}, {"dt", "s"}, {"limiter"}, {"fluid"}, {"wall"}};
+}
+
+std::vector<std::string> step_comments() {
+  std::string text = "dt: the step that was taken last; limiter: what limits it";
+  for (std::size_t k = 0; k < step_limiters.size(); ++k)
+    text += fmt::format("{} {} {}", k ? "," : ":", k, step_limiters[k]);
+  return {text + "; fluid, wall: numbers of particles"};
+}
 
 }  // namespace
 
@@ -66,6 +79,7 @@ OutputPlan read_output(const Table& root, const RunOptions& options, double end)
   plan.snapshots = table.non_negative("snapshots", unit::time, end / 20);
   plan.energies = table.non_negative("energies", unit::time, end / 200);
   plan.checkpoints = table.non_negative("checkpoints", unit::time, end / 5);
+  plan.report = table.flag("report", true) && options.report;
   std::vector<std::string> names;
   for (const auto& field : all_fields) names.emplace_back(field.name);
   for (const auto& name : table.choices("fields", names, {"v", "rho", "p", "m"}))
@@ -143,6 +157,23 @@ void EnergySeries<N>::add(const WeaklyCompressible<N>& flow, const Step& step, s
                        e.strain_dissipated,
                        0.5 * e.strain_power};
   series_.add(row);
+}
+
+StepSeries::StepSeries(const std::filesystem::path& folder, bool resume, double last_time)
+    : series_(resume ? TimeSeries::resume(folder / "steps.csv", step_columns(), last_time, step_comments())
+                     : TimeSeries::create(folder / "steps.csv", step_columns(), step_comments())) {}
+
+void StepSeries::add(double time, std::int64_t count, const Step& step, std::size_t fluid, std::size_t wall) {
+  const auto limiter = std::ranges::find(step_limiters, step.limiter) - step_limiters.begin();
+  series_.add(std::array{time, static_cast<double>(count), step.dt, static_cast<double>(limiter),
+                         static_cast<double>(fluid), static_cast<double>(wall)});
+}
+
+void write_progress(const std::filesystem::path& folder, const std::string& text) {
+  const auto file = folder / "progress.json", temporary = folder / "progress.json.tmp";
+  if (std::ofstream stream(temporary); !(stream << text << '\n')) return;
+  std::error_code ignored;
+  std::filesystem::rename(temporary, file, ignored);
 }
 
 std::vector<std::filesystem::path> Checkpoints::files() const {

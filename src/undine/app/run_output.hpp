@@ -1,8 +1,11 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "undine/app/run_options.hpp"
@@ -19,6 +22,7 @@ struct OutputPlan {
   std::filesystem::path folder;
   double snapshots = 0, energies = 0, checkpoints = 0;
   std::vector<int> fields;  ///< of snapshots, as in fields.def
+  bool report = true;       ///< whether a page that shows the run is written at its end
 };
 
 /// Reads [output] for a run that ends at `end` (s).
@@ -56,6 +60,24 @@ class EnergySeries {
   TimeSeries series_;
   double start_total_ = 0, start_potential_ = 0;
 };
+
+/// What may limit a step, in the order of the numbers in steps.csv.
+inline constexpr std::array<std::string_view, 5> step_limiters{"fixed", "courant", "force", "viscous", "largest"};
+
+/// The steps of a run as a series, steps.csv: their size, what limited it, and how many particles there were.
+class StepSeries {
+ public:
+  /// Starts the file, or goes on with it after `last_time` (s).
+  StepSeries(const std::filesystem::path& folder, bool resume, double last_time);
+  void add(double time, std::int64_t count, const Step& step, std::size_t fluid, std::size_t wall);
+
+ private:
+  TimeSeries series_;
+};
+
+/// Replaces progress.json, by which others may follow a run. Not forced to the disk, and silent where it cannot be
+/// written: nothing depends on it.
+void write_progress(const std::filesystem::path& folder, const std::string& text);
 
 /// The last two checkpoints of a folder, by step.
 class Checkpoints {

@@ -35,7 +35,8 @@ constexpr const char* marker = ".undine";
 bool is_output(const fs::path& file) {
   const std::string name = file.filename().string();
   constexpr std::string_view endings[] = {".vtkhdf", ".vtkhdf.series", ".checkpoint", ".tmp"};
-  return std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
+  return name == "report.html" ||
+         std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
 void remove_outputs(const fs::path& folder) {

@@ -6,7 +6,7 @@ namespace undine {
 enum class FolderMode {
   fresh,     ///< the folder must be new or empty
   resume,    ///< it must exist; all that it holds stays
-  overwrite  ///< may hold an earlier run, whose snapshots, lists of snapshots and checkpoints are removed
+  overwrite  ///< may hold an earlier run, whose snapshots, lists of snapshots, checkpoints and report are removed
 };
 
 /// Makes the folder (with its parents) ready for a run, and tries to write to it. A prepared folder holds the small

@@ -110,12 +110,37 @@ OwnedColumn read_column(const Hdf5File& file, const std::string& name, const Own
   return column;
 }
 
-OwnedColumn read_positions(const Hdf5File& file, const OwnedFrame& frame) {
+OwnedColumn read_points(const Hdf5File& file, const OwnedFrame& frame) {
   OwnedColumn column = read_column(file, root + "/Points", frame);
   column.name = frame.position;
   if (column.components != frame.dimensions)
     refuse(file.path(), fmt::format("Points have {} components in {} dimensions", column.components, frame.dimensions));
   return column;
+}
+
+/// Time, step, dimensions and positions; no other columns.
+OwnedFrame read_header(const Hdf5File& file) {
+  const std::filesystem::path& path = file.path();
+  if (!file.has(root) || !file.has_attribute(root, "Type")) refuse(path, "it holds no VTKHDF data");
+  if (const std::string type = file.read_attribute_text(root, "Type"); type != "UnstructuredGrid")
+    refuse(path, fmt::format("its type is '{}'; expected 'UnstructuredGrid'", type));
+  OwnedFrame frame;
+  if (file.has_attribute(root, "time")) frame.time = file.read_attribute<double>(root, "time");
+  if (file.has_attribute(root, "step")) frame.step = file.read_attribute<std::int64_t>(root, "step");
+  if (file.has_attribute(root, "position")) frame.position = file.read_attribute_text(root, "position");
+  if (file.has_attribute(root, "dimensions")) {
+    const auto dimensions = file.read_attribute<std::int64_t>(root, "dimensions");
+    if (dimensions < 1 || dimensions > 3) refuse(path, fmt::format("it has {} dimensions", dimensions));
+    frame.dimensions = static_cast<int>(dimensions);
+  }
+  const Hdf5Extent points = file.extent(root + "/Points");
+  if (points.columns != 3) refuse(path, fmt::format("its points have {} coordinates; expected 3", points.columns));
+  frame.particles = points.rows;
+  const std::vector<std::int64_t> counts = file.read<std::int64_t>(root + "/NumberOfPoints");
+  if (std::accumulate(counts.begin(), counts.end(), std::int64_t{0}) != static_cast<std::int64_t>(points.rows))
+    refuse(path, fmt::format("NumberOfPoints does not say {}, the number of its points", points.rows));
+  frame.columns.push_back(read_points(file, frame));
+  return frame;
 }
 
 OwnedIntColumn read_integers(const Hdf5File& file, const std::string& name, std::size_t particles, int bytes) {
@@ -155,27 +180,11 @@ void write_snapshot(const std::filesystem::path& path, const Frame& frame, const
   target.commit();
 }
 
+OwnedFrame read_positions(const std::filesystem::path& path) { return read_header(Hdf5File::open(path)); }
+
 OwnedFrame read_snapshot(const std::filesystem::path& path) {
   const Hdf5File file = Hdf5File::open(path);
-  if (!file.has(root) || !file.has_attribute(root, "Type")) refuse(path, "it holds no VTKHDF data");
-  if (const std::string type = file.read_attribute_text(root, "Type"); type != "UnstructuredGrid")
-    refuse(path, fmt::format("its type is '{}'; expected 'UnstructuredGrid'", type));
-  OwnedFrame frame;
-  if (file.has_attribute(root, "time")) frame.time = file.read_attribute<double>(root, "time");
-  if (file.has_attribute(root, "step")) frame.step = file.read_attribute<std::int64_t>(root, "step");
-  if (file.has_attribute(root, "position")) frame.position = file.read_attribute_text(root, "position");
-  if (file.has_attribute(root, "dimensions")) {
-    const auto dimensions = file.read_attribute<std::int64_t>(root, "dimensions");
-    if (dimensions < 1 || dimensions > 3) refuse(path, fmt::format("it has {} dimensions", dimensions));
-    frame.dimensions = static_cast<int>(dimensions);
-  }
-  const Hdf5Extent points = file.extent(root + "/Points");
-  if (points.columns != 3) refuse(path, fmt::format("its points have {} coordinates; expected 3", points.columns));
-  frame.particles = points.rows;
-  const std::vector<std::int64_t> counts = file.read<std::int64_t>(root + "/NumberOfPoints");
-  if (std::accumulate(counts.begin(), counts.end(), std::int64_t{0}) != static_cast<std::int64_t>(points.rows))
-    refuse(path, fmt::format("NumberOfPoints does not say {}, the number of its points", points.rows));
-  frame.columns.push_back(read_positions(file, frame));
+  OwnedFrame frame = read_header(file);
   if (!file.has(point_data)) return frame;
   for (const std::string& name : file.names(point_data)) {
     const std::string place = point_data + "/" + name;

@@ -24,6 +24,8 @@ void write_snapshot(const std::filesystem::path& path, const Frame& frame, const
 
 /// Reads what write_snapshot wrote, or any VTKHDF points of another program. Throws InputError.
 OwnedFrame read_snapshot(const std::filesystem::path& path);
+/// The same with the positions and no other columns.
+OwnedFrame read_positions(const std::filesystem::path& path);
 
 /// The list "NAME.vtkhdf.series" of the snapshots of a run with their times, which ParaView opens as an animation.
 class SeriesFile {

@@ -179,8 +179,8 @@ void read_facts(Member& member) {
 
 std::vector<std::string> run_words(const Member& member, const std::vector<Member>& all) {
   const RunOptions options = run_options(member, all);
-  std::vector<std::string> words{"run",    options.file.string(), "--out", options.out.string(), "--threads", "1",
-                                 "--quiet"};
+  std::vector<std::string> words{"run",     options.file.string(), "--out", options.out.string(), "--threads", "1",
+                                 "--quiet", "--no-report"};
   for (const std::string& each : options.sets) words.insert(words.end(), {"--set", each});
   return words;
 }
