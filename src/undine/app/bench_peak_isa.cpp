@@ -15,18 +15,13 @@ namespace {
 constexpr int chains = 12;  ///< latency 4, two a cycle, and some to spare; 14 registers of the 16 of AVX2
 
 /// Chains of multiply-adds that do not wait for each other; the result keeps the compiler from leaving them out.
-template <class V>
-V multiply_adds(long rounds) {
-  V sums[chains];
-  for (int k = 0; k < chains; ++k) sums[k] = V(0.1 * k);
+/// Constant indices alone keep them in registers.
+template <class V, int... K>
+V multiply_adds(long rounds, std::integer_sequence<int, K...>) {
+  V sums[]{V(0.1 * K)...};
   const V factor(0.999), addend(1e-3);
-  const auto each = [&]<int... K>(std::integer_sequence<int, K...>) __attribute__((always_inline)) {
-    ((sums[K] = sums[K] * factor + addend), ...);  // constant indices: sums stay in registers
-  };
-  for (long r = 0; r < rounds; ++r) each(std::make_integer_sequence<int, chains>{});
-  V total(0);
-  for (int k = 0; k < chains; ++k) total += sums[k];
-  return total;
+  for (long r = 0; r < rounds; ++r) ((sums[K] = sums[K] * factor + addend), ...);
+  return (sums[K] + ...);
 }
 
 template <class V>
@@ -37,7 +32,7 @@ double peak_of(int threads) {
   for (int repeat = 0; repeat < 9; ++repeat) {
     const double start = omp_get_wtime();
 #pragma omp parallel num_threads(threads) reduction(+ : sink)
-    sink += static_cast<double>(lane_sum(multiply_adds<V>(rounds)));
+    sink += static_cast<double>(lane_sum(multiply_adds<V>(rounds, std::make_integer_sequence<int, chains>{})));
     best = std::max(best, flops * threads / (omp_get_wtime() - start));
   }
   return std::isfinite(sink) ? best : 0;
