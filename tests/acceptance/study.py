@@ -22,8 +22,9 @@ def write_study(folder, cases, text):
 
 
 def smoke(program, study, folder):
-    """A shipped study runs its [quick] members to their end, and its files agree with each other."""
+    """Every member of a shipped study can be read; its [quick] members run to their end, and its files agree with each other."""
     out = os.path.join(folder, "out")
+    undine(program, "study", study, "--dry-run", "--out", out)
     undine(program, "study", study, "--quick", "--out", out)
     rows = results(out)
     data = json.load(open(os.path.join(out, "study.json"), encoding="utf-8"))
@@ -32,7 +33,10 @@ def smoke(program, study, folder):
         require(row["status"] == "finished", f"{name}: {row['status']} {row['error']}")
     for member in data["members"]:
         require(list(member["axes"]) == [axis["name"] for axis in data["axes"]], f"{member['name']} has a value on each axis")
-    require(os.path.getsize(os.path.join(out, "study.md")) > 200, "study.md is written")
+    lines = [line for line in open(os.path.join(out, "study.md"), encoding="utf-8") if line.startswith("| ")][2:]
+    require(len(lines) == len(rows), f"{len(lines)} rows in study.md")
+    for member in data["members"]:
+        require(all(member["verdicts"].get(verdict["name"]) for verdict in data["verdicts"]), f"{member['name']} has each verdict")
 
 
 SPACING = """

@@ -22,7 +22,8 @@ constexpr int usual_points = 101, most_points = 10'000'000;
 double read_number(std::string_view option, const std::string& text_value, Dimension wanted) {
   const Quantity given = parse_quantity(text_value);
   if (given.dimension != wanted && given.dimension != unit::one)
-    throw InputError({.what = fmt::format("{} takes {}, not {}", option, described(wanted), text(given))});
+    throw InputError({.what = fmt::format("{} takes {}, not {}", option, described(wanted), text(given)),
+                      .fix = "give a number in SI units, or one with a unit of that kind"});
   return given.value;
 }
 

@@ -40,11 +40,13 @@ void set_parameter(T& owner, std::string_view name, const std::string& value) {
     const Quantity given = parse_quantity(value);
     const Dimension wanted = dimension_of(parameter.unit);
     if (given.dimension != wanted && given.dimension != unit::one)
-      throw InputError({.what = fmt::format("'{}' is {}, not {}", name, described(wanted), text(given))});
+      throw InputError({.what = fmt::format("'{}' is {}, not {}", name, described(wanted), text(given)),
+                        .fix = "give a number in SI units, or one with a unit of that kind"});
     if (!(given.value >= parameter.low && given.value <= parameter.high))
       throw InputError(
           {.what = fmt::format("'{}' is out of range", name),
-           .why = fmt::format("it is {}, and must be from {} to {}", given.value, parameter.low, parameter.high)});
+           .why = fmt::format("it is {}, and must be from {} to {}", given.value, parameter.low, parameter.high),
+           .fix = "choose a value in that range"});
     owner.*parameter.member = given.value;
   });
   if (found) return;

@@ -71,7 +71,7 @@ TEST(Take, RippleLeavesStraightLinesAndKeepsFastSwings) {
   // One of period 1 s is nearly gone: 1 - sin(x)/x, x = pi 0.1, is 0.016.
   const double slow =
       take("take = 'ripple'\nperiod = '0.1 s'", [](double t) { return 2 * std::sin(2 * std::numbers::pi * t); });
-  EXPECT_NEAR(slow, std::sqrt(2.0) * 0.0164, 0.01);
+  EXPECT_NEAR(slow, std::sqrt(2.0) * 0.0164, 0.004);  // eleven samples are not the continuous mean
 }
 
 TEST(Take, TimeToAThreshold) {

@@ -85,7 +85,7 @@ class Writer {
 
   std::string markdown() const {
     std::string text = fmt::format("# {}\n\n", study_.title.empty() ? study_.file.filename().string() : study_.title);
-    text += fmt::format("`undine study {}`, Undine {}.\n\n", study_.file.filename().string(), program_version());
+    text += fmt::format("`{}`, Undine {}.\n\n", study_.command, program_version());
     std::vector<std::string> head;
     for (const Axis& axis : study_.axes) head.push_back(axis.name);
     if (head.empty()) head.emplace_back("member");
@@ -114,8 +114,9 @@ class Writer {
     for (const Order& order : table_.orders)
       orders.push_back(
           {{"quantity", order.quantity}, {"axis", order.axis}, {"group", order.group}, {"order", number(order.order)}});
-    return Json{{"title", study_.title}, {"file", study_.file.string()}, {"axes", axes},    {"quantities", quantities},
-                {"verdicts", verdicts},  {"members", members},           {"orders", orders}};
+    return Json{
+        {"title", study_.title},    {"file", study_.file.string()}, {"command", study_.command}, {"axes", axes},
+        {"quantities", quantities}, {"verdicts", verdicts},         {"members", members},        {"orders", orders}};
   }
 
  private:

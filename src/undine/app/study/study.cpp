@@ -159,7 +159,9 @@ void resolve_all(std::vector<Member>& members) {
 
 int run_study(const StudyOptions& options) {
   const Document document = Document::load(options.file);
-  const StudyFile file = read_study(document, options.file, options.quick);
+  StudyFile file = read_study(document, options.file, options.quick);
+  file.command = "undine study " + options.file.filename().string() + (options.quick ? " --quick" : "");
+  for (const std::string& each : options.sets) file.command += fmt::format(" --set \"{}\"", each);
   const fs::path out = options.out.empty()
                            ? fs::path("out") / (options.file.stem().string() + (options.quick ? "-quick" : ""))
                            : options.out;

@@ -53,6 +53,7 @@ struct OrderSpec {
 struct StudyFile {
   std::string title = {};
   std::filesystem::path file = {};
+  std::string command = {};         ///< that made the table, for people
   std::filesystem::path base = {};  ///< may be empty if every member's values name one
   std::vector<Table::Literal> set = {};
   std::vector<Table::Literal> quick_set = {};
