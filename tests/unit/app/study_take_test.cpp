@@ -68,10 +68,11 @@ TEST(Take, RippleLeavesStraightLinesAndKeepsFastSwings) {
   const double swing =
       take("take = 'ripple'\nperiod = '0.1 s'", [](double t) { return 2 * std::sin(40 * std::numbers::pi * t) + t; });
   EXPECT_NEAR(swing, std::sqrt(2.0), 0.1 * std::sqrt(2.0));
-  // One of period 1 s is nearly gone: 1 - sin(x)/x, x = pi 0.1, is 0.016.
+  // One of period 1 s is nearly gone: a mean of eleven samples leaves 1 - sin(11 x)/(11 sin x) of it, x = pi 0.01.
+  const double x = 0.01 * std::numbers::pi, left = 1 - std::sin(11 * x) / (11 * std::sin(x));
   const double slow =
       take("take = 'ripple'\nperiod = '0.1 s'", [](double t) { return 2 * std::sin(2 * std::numbers::pi * t); });
-  EXPECT_NEAR(slow, std::sqrt(2.0) * 0.0164, 0.004);  // eleven samples are not the continuous mean
+  EXPECT_NEAR(slow, std::sqrt(2.0) * left, 0.002);
 }
 
 TEST(Take, TimeToAThreshold) {
