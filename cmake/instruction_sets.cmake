@@ -6,7 +6,7 @@
 # visible; all other copies are its own.
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT UNDINE_SANITIZE)
-  set(UNDINE_ISA_LEVELS 2 3 4)
+  set(UNDINE_ISA_LEVELS "2;3;4" CACHE STRING "x86-64 levels to compile the pair loops for; fewer compile faster")
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(UNDINE_ISA_LEVELS 2)  # what is looked for there is errors, not speed
 else()
