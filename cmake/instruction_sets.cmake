@@ -6,14 +6,11 @@
 # visible; all other copies are its own.
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT UNDINE_SANITIZE)
-  set(UNDINE_ISA_LEVELS "2;3;4" CACHE STRING "x86-64 levels to compile the pair loops for; fewer compile faster")
+  set(UNDINE_ISA_LEVELS "2;3;4" CACHE STRING "x86-64 levels to compile the pair loops for, 2 among them; fewer compile faster")
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(UNDINE_ISA_LEVELS 2)  # what is looked for there is errors, not speed
 else()
   set(UNDINE_ISA_LEVELS "")
-endif()
-if(UNDINE_ISA_LEVELS)
-  list(GET UNDINE_ISA_LEVELS -1 UNDINE_ISA_HIGHEST)
 endif()
 
 # undine_sources_by_instruction_set(TARGET SOURCE...): the sources, compiled for each set, become part of the target.

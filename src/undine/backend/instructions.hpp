@@ -15,7 +15,7 @@ bool can_run(InstructionSet set);
 /// The widest that can run here.
 InstructionSet best_instructions();
 
-#if defined(UNDINE_ISA_LEVELS)
+#if defined(UNDINE_HAS_ISA_V2)
 namespace isa_v2 {
 struct Tag;
 }
@@ -35,11 +35,11 @@ struct Tag;
 /// `can_run`.
 template <class F>
 decltype(auto) with_instructions(InstructionSet set, F&& f) {
-#if defined(UNDINE_ISA_LEVELS)
-#if UNDINE_ISA_LEVELS >= 4
+#if defined(UNDINE_HAS_ISA_V2)
+#if defined(UNDINE_HAS_ISA_V4)
   if (set == InstructionSet::avx512) return f.template operator()<isa_v4::Tag>();
 #endif
-#if UNDINE_ISA_LEVELS >= 3
+#if defined(UNDINE_HAS_ISA_V3)
   if (set == InstructionSet::avx2) return f.template operator()<isa_v3::Tag>();
 #endif
   if (set == InstructionSet::basic) return f.template operator()<isa_v2::Tag>();
