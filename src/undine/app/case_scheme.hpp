@@ -23,8 +23,9 @@ struct SchemeChoice {
   std::string wall_reference;         ///< "auto", "rho_0" or empty: `wall_reference_density`
   double wall_reference_density = 0;  ///< kg/m^3
   double restitution = 1;
-  int wall_layers = 0;          ///< 0: as many as the support needs
-  std::vector<double> gravity;  ///< m/s^2, one per dimension
+  double separation = 0, reach = 0;  ///< defaults of what keeps pairs apart: of (expected speed)^2, of the spacing
+  int wall_layers = 0;               ///< 0: as many as the support needs
+  std::vector<double> gravity;       ///< m/s^2, one per dimension
 };
 
 /// Reads the scheme into options; `spacing` in m. Materials, reflector and body force are left to the particles'
