@@ -199,7 +199,8 @@ class Run {
       fmt::print("\n  sweeps      all in packs of {}, {} instructions ({}), H {}\n",
                  backend.precision == PairPrecision::mixed ? "float" : "double",
                  instruction_set_names[static_cast<std::size_t>(backend.instructions)],
-                 best ? "the widest here" : "named by the case", o.rho_law ? "of each pair" : "the same everywhere");
+                 best ? "the widest here" : "named by the case",
+                 o.supports_vary() ? "of each pair" : "the same everywhere");
     } else {
       fmt::print("\n  sweeps      all one pair at a time in double (backend {})\n",
                  backend_names[static_cast<std::size_t>(backend.kind)]);
@@ -368,7 +369,7 @@ class Run {
   GaugeSet<N> gauges_;
   std::string hash_;
   std::optional<OwnedCheckpoint> checkpoint_;
-  std::unique_ptr<WeaklyCompressible<N>> flow_;
+  std::unique_ptr<Flow<N>> flow_;
   std::int64_t step_ = 0;
   double particle_updates_ = 0, seconds_output_ = 0, first_step_ = 0, progress_start_ = 0;
   Clock::time_point last_progress_ = Clock::now(), last_file_ = {};
