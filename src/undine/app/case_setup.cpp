@@ -45,6 +45,7 @@ struct Body {
   bool may_coincide = true;  ///< points that a lattice laid are apart from each other
   int motion = -1;           ///< of a wall: its number in WallPlan::motions
   std::shared_ptr<ReflectingSurface> surface = {};  ///< of a wall with a shape: that alone
+  double coarser = 1;                               ///< spacing of a fluid's lattice over the case's
 };
 
 constexpr std::int64_t most_layers = 100;  ///< of a wall
@@ -119,17 +120,24 @@ class Reader {
               table};
     if (table.has("particles")) {
       take_list(body);
-      unused(table, {"shape", "lattice", "anchor", "jitter", "seed"});
+      unused(table, {"shape", "lattice", "anchor", "jitter", "seed", "spacing"});
     } else {
       const Lattice lattice =
           table.choice("lattice", {"cubic", "hexagonal"}, "cubic") == "cubic" ? Lattice::cubic : Lattice::hexagonal;
-      LatticeSpec spec{setup_.spacing, N, lattice, {}};
+      const double spacing = table.positive("spacing", unit::length, setup_.spacing);
+      if (spacing < setup_.spacing * (1 - 1e-9))
+        table.fail("spacing",
+                   fmt::format("a spacing of {:.4g} m is finer than the case's {:.4g} m", spacing, setup_.spacing),
+                   "particles are checked, and walls laid, with the case's",
+                   "let 'spacing' at the top be that of the finest fluid");
+      body.coarser = spacing / setup_.spacing;
+      LatticeSpec spec{spacing, N, lattice, {}};
       if (table.has("anchor")) spec.anchor = read_point(table, "anchor", N);
       const ShapePtr shape = read_shape(table.table("shape"), N);
       check_size(table, *shape);
       body.points = with_place(table, [&] { return fill_lattice(*shape, spec); });
       body.may_coincide = false;
-      const double jitter = table.in_range("jitter", unit::one, {0, 0.5}, 0.0) * setup_.spacing;
+      const double jitter = table.in_range("jitter", unit::one, {0, 0.5}, 0.0) * spacing;
       if (jitter > 0) {
         shake(body.points, jitter, static_cast<std::uint64_t>(table.integer("seed", 1)));
         body.may_coincide = true;
@@ -137,10 +145,11 @@ class Reader {
       unused(table, {"seed"});
     }
     if (body.points.empty())
-      throw InputError({.what = fmt::format("fluid '{}' has no particles", body.name),
-                        .where = table.where(),
-                        .why = fmt::format("no lattice point of spacing {:.4g} m lies in its shape", setup_.spacing),
-                        .fix = "make the shape larger or the spacing smaller"});
+      throw InputError(
+          {.what = fmt::format("fluid '{}' has no particles", body.name),
+           .where = table.where(),
+           .why = fmt::format("no lattice point of spacing {:.4g} m lies in its shape", setup_.spacing * body.coarser),
+           .fix = "make the shape larger or the spacing smaller"});
     check_room(table, static_cast<double>(body.points.size()), setup_.spacing);
     bodies_.push_back(std::move(body));
   }
@@ -497,7 +506,7 @@ class Reader {
         const auto& material = options.materials[body.material];
         const std::size_t at = store.append(group, body.points.size(), body.material);
         double volume = 1;
-        for (int k = 0; k < N; ++k) volume *= setup_.spacing;
+        for (int k = 0; k < N; ++k) volume *= setup_.spacing * body.coarser;
         const double mass = body.table.positive("particle_mass", unit::mass, material.rho_0 * volume);
         const auto pressure = initial_pressure(body, material);
         for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -517,7 +526,7 @@ class Reader {
                             "the equation of state cannot be that low", "raise the pressure or the speed of sound");
           store.template get<field::rho>()[s] = given("rho", density);
           store.template get<field::m>()[s] = given("m", mass);
-          store.template get<field::h>()[s] = options.support.uniform;
+          store.template get<field::h>()[s] = options.support.uniform * body.coarser;
           store.template get<field::rho_0>()[s] = material.rho_0;
           store.template get<field::mu>()[s] = material.mu;
         }
