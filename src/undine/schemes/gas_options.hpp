@@ -15,7 +15,7 @@ struct GasOptions : FlowOptions<N> {
   OneOf<terms::GasPressureForms> pressure;
   OneOf<terms::EnergyForms> energy;
   std::optional<OneOf<terms::GasViscosities>> artificial;
-  OneOf<terms::ViscositySwitches> viscosity_switch;
+  ChoiceOf<terms::ViscositySwitches> viscosity_switch;
   bool limiter = false;  ///< whether artificial viscosity fades where flow shears, by `balsara`
   std::optional<terms::ConductivityPressure> conductivity;
   std::optional<OneOf<terms::StressForms>> stress;  ///< of a viscous gas
