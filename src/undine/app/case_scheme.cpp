@@ -196,8 +196,6 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
     choice.limits.force = time.positive("force", unit::one, choice.limits.force);
     choice.limits.viscous = time.positive("viscous", unit::one, choice.limits.viscous);
     choice.limits.largest = time.positive("largest_step", unit::time, choice.end);
-    if (integrators::adapts(choice.integrator))
-      choice.limits.tolerance = time.positive("tolerance", unit::one, choice.limits.tolerance);
   }
   return choice;
 }

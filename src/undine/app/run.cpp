@@ -110,7 +110,7 @@ class Run {
 
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
-    Step step = flow_->next_step(setup_.choice.limits);
+    Step step = flow_->stable_step(setup_.choice.limits);
     double before = fresh ? -1 : flow_->time();
     progress_start_ = flow_->time();
     record("running", start, energies);
@@ -122,7 +122,7 @@ class Run {
         if (last || (due(output_.checkpoints, before, flow_->time()) && flow_->time() > 0)) write_checkpoint(energies);
         if (last) break;
         progress(start, step, false);
-        step = flow_->next_step(setup_.choice.limits);
+        step = flow_->stable_step(setup_.choice.limits);
         check_step(step);
         before = flow_->time();
         integrators::Integrators::visit(integrators::Integrators::index_of(setup_.choice.integrator),
@@ -153,9 +153,6 @@ class Run {
                                                       checkpoint_->state.lists.at("memory"));
     }
     flow_->set_potential_origin(setup_.potential_origin);
-    const StepLimits& limits = setup_.choice.limits;
-    if (limits.fixed <= 0 && integrators::adapts(setup_.choice.integrator))
-      flow_->step_control().tolerance = limits.tolerance;
   }
 
   /// The particles of a checkpoint in their order, every field.

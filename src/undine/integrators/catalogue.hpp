@@ -17,11 +17,4 @@ using Integrators = Catalogue<      //
     EmbeddedPair<BogackiShampine>,  //
     EmbeddedPair<DormandPrince> >;
 
-/// Whether the integrator of that name can choose steps by their error.
-constexpr bool adapts(std::string_view name) {
-  return Integrators::visit(Integrators::index_of(name), []<class I>(I) {
-    return requires { I::adapts; };
-  });
-}
-
 }  // namespace undine::integrators

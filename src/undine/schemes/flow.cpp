@@ -269,7 +269,7 @@ std::vector<double*> Flow<N>::accounts() {
 
 template <int N>
 std::vector<double> Flow<N>::memory() const {
-  std::vector<double> numbers{time_, neighbours_.support(), step_control_.proposed, step_control_.error_before};
+  std::vector<double> numbers{time_, neighbours_.support()};
   for (const double* number : const_cast<Flow&>(*this).remembered()) numbers.push_back(*number);
   numbers.push_back(static_cast<double>(escaped_));
   return numbers;
@@ -277,16 +277,9 @@ std::vector<double> Flow<N>::memory() const {
 
 template <int N>
 void Flow<N>::recall(const std::vector<double>& numbers) {
-  if (numbers.size() != remembered().size() + 5)
-    throw InputError(
-        {.what = "the checkpoint is of another version of this program",
-         .why = fmt::format("it remembers {} numbers, this scheme {}", numbers.size(), remembered().size() + 5),
-         .fix = "start again without --resume"});
   auto next = numbers.begin();
   time_ = *next++;
   neighbours_.rebuild_from_list_positions(store_, *next++);
-  step_control_.proposed = *next++;
-  step_control_.error_before = *next++;
   if (ghosts_) ghosts_->find_parents(store_);
   for (double* number : remembered()) *number = *next++;
   step_end_ = time_;
@@ -334,12 +327,6 @@ void Flow<N>::push_from_walls(double dt) {
     return 0.5 * mass[i] * (norm_sq(old) - norm_sq(u[i]));
   });
 }
-
-}  // namespace undine
-
-#include "undine/schemes/flow_stages_impl.hpp"
-
-namespace undine {
 
 template class Flow<1>;
 template class Flow<2>;

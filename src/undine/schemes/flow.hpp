@@ -9,11 +9,9 @@
 #include "undine/engine/pair_sweep.hpp"
 #include "undine/engine/plan.hpp"
 #include "undine/engine/update.hpp"
-#include "undine/integrators/step_control.hpp"
 #include "undine/schemes/energies.hpp"
 #include "undine/schemes/flow_options.hpp"
 #include "undine/schemes/ghosts.hpp"
-#include "undine/schemes/stages.hpp"
 
 namespace undine {
 
@@ -40,20 +38,8 @@ class Flow {
   void evaluate();
   virtual void book(double dt) = 0;
 
-  // Moves of Runge-Kutta integrators (integrators/runge_kutta.hpp says what each does).
-  void start_stages(int slopes, double dt);
-  void take_slope(int k);
-  void stage(std::span<const double> weights) { go_to(weights, false); }
-  void finish(std::span<const double> weights) { go_to(weights, true); }
-  /// Root of the mean of |dv|^2/c^2 + (drho/rho)^2 + (de/c^2)^2 over the fluid's particles, d = sum_k w_k slope_k.
-  double stage_error(std::span<const double> weights) const;
-  void reject();
-  integrators::StepControl& step_control() { return step_control_; }
-
   /// The largest step that the limits allow for the rates at hand, and which limit it was.
   virtual Step stable_step(const StepLimits& limits) const = 0;
-  /// The step to take: that one, or a shorter one that the error of the last step asks for ("tolerance").
-  Step next_step(const StepLimits& limits) const;
 
   virtual Energies energies() const = 0;
   /// Force on the walls' particles from the fluid, field acc of the wall group (m/s^2, times m gives N). Changes no
@@ -163,7 +149,6 @@ class Flow {
   void place_surfaces(double t) const;
   void move_walls();
   void push_from_walls(double dt);
-  void go_to(std::span<const double> weights, bool at_end);
   double largest_support() const;
   void recall(const std::vector<double>& numbers);
 
@@ -173,11 +158,6 @@ class Flow {
   double time_start_ = 0;
   double step_end_ = 0;  ///< when the last step ended, s
   Energies::Ledger ledger_start_;
-  integrators::StepControl step_control_;
-  Stages<N> stages_;
-  double stage_dt_ = 0;
-  std::vector<double> xsph_powers_;       ///< of each slope: work of XSPH against gravity, W
-  std::vector<double> remembered_start_;  ///< what `remembered` pointed to at the start of the step
   long list_builds_ = 0, escaped_ = 0;
   double seconds_lists_ = 0, seconds_sweeps_ = 0;
 };

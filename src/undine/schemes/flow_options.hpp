@@ -72,12 +72,11 @@ struct StepLimits {
   double force = 0.25;     ///< of sqrt(h / |acc|)
   double viscous = 0.125;  ///< of h^2 rho / mu, Morris et al. (1997), eq. 23
   double largest = 1e300;
-  double tolerance = 1e-5;  ///< of the error of a step, where the integrator measures it
 };
 
 struct Step {
   double dt;
-  const char* limiter;  ///< "fixed", "courant", "force", "viscous", "largest", "tolerance"
+  const char* limiter;  ///< "fixed", "courant", "force", "viscous", "largest"
 };
 
 }  // namespace undine

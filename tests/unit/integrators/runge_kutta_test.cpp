@@ -38,7 +38,7 @@ struct Pendulum {
   }
   void book(double dt) { booked += dt * damping * now.v * now.v; }
   void smooth() {}
-  void start_stages(int count, double) {
+  void start_stages(int count) {
     start = now;
     booked_start = booked;
     slopes.assign(static_cast<std::size_t>(count), {});
