@@ -42,6 +42,7 @@ void run_stages(Flow& flow, double dt, int slopes) {
 
 template <class Tableau>
 struct RungeKutta {
+  using Coefficients = Tableau;
   static constexpr Info info = Tableau::info;
   static constexpr int order = Tableau::order;
 
@@ -56,6 +57,7 @@ struct RungeKutta {
 /// that broke down. With a control that does not adapt it is a Runge-Kutta scheme like others.
 template <class Tableau>
 struct EmbeddedPair {
+  using Coefficients = Tableau;
   static constexpr Info info = Tableau::info;
   static constexpr int order = Tableau::order;
   static constexpr bool adapts = true;
