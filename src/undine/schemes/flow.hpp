@@ -33,8 +33,8 @@ class Flow {
   virtual void predict_kick(double dt);
   virtual void correct_kick(double dt);
   virtual void smooth();
-  void save();
-  void restore();
+  virtual void save();
+  virtual void restore();
   void evaluate();
   virtual void book(double dt) = 0;
 
@@ -70,11 +70,6 @@ class Flow {
   const Vec<N>& potential_origin() const { return potential_origin_; }
 
  protected:
-  /// A state field and where `save` keeps its value of the step's start.
-  struct Kept {
-    int field, start;
-  };
-
   Flow(Store<N> store, const Domain<N>& domain, std::shared_ptr<const FlowOptions<N>> options);
   /// The end of a scheme's construction, its plan being made: evaluates the rates, or goes on from `memory`.
   void start(const std::vector<double>& memory);
@@ -84,7 +79,6 @@ class Flow {
   virtual void prepare() {}
   /// Added to the velocity that moves particles, m/s; empty: nothing.
   virtual std::span<const Vec<N>> drift_correction() const { return {}; }
-  virtual std::vector<Kept> kept_of_a_step() const;
   /// Numbers that rates left behind and `book` needs, and accounts: what a checkpoint keeps besides time and lists.
   virtual std::vector<double*> remembered() = 0;
   std::vector<double*> accounts();
@@ -104,6 +98,8 @@ class Flow {
     plan_.add({std::move(name), Resources(group, Update::reads::set()), Resources(group, Update::writes::set()),
                [this, group, rule] { update(store_, group, rule); }});
   }
+  /// The density as a sum, where it is one; `walls` take part in it.
+  void add_summation_stages(DensityForm form, bool walls);
   /// Gravity, imposed forces and, where walls push, `acc_wall`, all added to the acceleration.
   void add_body_force_stage(bool walls_push);
   struct PlanFields {
@@ -126,6 +122,8 @@ class Flow {
   FieldSet place() const {
     return common_->supports_vary() ? Fields<field::x, field::h>::set() : Fields<field::x>::set();
   }
+  /// The end of the last step, s.
+  double step_end() const { return step_end_; }
   Vec<N> gravity_of_ghosts() const { return common_->ghost_hydrostatic ? common_->gravity : Vec<N>{}; }
 
   Store<N> store_;
@@ -153,6 +151,8 @@ class Flow {
   void recall(const std::vector<double>& numbers);
 
   std::shared_ptr<const FlowOptions<N>> common_;
+  PairSweep<N, Use<terms::Summation>> summation_{"summation", Group::fluid};
+  PairSweep<N, Use<terms::ShepardSum>> shepard_{"shepard sum", Group::fluid};
   std::vector<SweepNote> sweeps_;
   double support_now_ = 0;
   double time_start_ = 0;
