@@ -1,11 +1,10 @@
-#include "undine/schemes/gas.hpp"
-
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "undine/integrators/catalogue.hpp"
+#include "undine/schemes/gas.hpp"
 #include "unit/engine/crowd.hpp"
 
 // What a gas keeps as it moves: energy, momentum, entropy, a contact at rest; in a periodic tube of two gases and in a
