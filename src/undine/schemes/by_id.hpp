@@ -7,25 +7,26 @@
 
 namespace undine {
 
-/// The values of a field of the fluid, kept for their particles however the store is sorted meanwhile.
+/// The values of a field of one group, kept for their particles however the store is sorted meanwhile.
 template <int N>
 class ById {
  public:
-  void take(const Store<N>& store, int field) {
-    const IndexRange fluid = store.range(Group::fluid);
+  void take(const Store<N>& store, Group group, int field) {
+    const IndexRange range = store.range(group);
+    const auto ids = store.ids();
     width_ = static_cast<std::size_t>(all_fields[field].components(N));
     std::int64_t most = -1;
-    for (std::size_t i = fluid.begin; i < fluid.end; ++i) most = std::max(most, store.ids()[i]);
+    for (std::size_t i = range.begin; i < range.end; ++i) most = std::max(most, ids[i]);
     numbers_.resize(static_cast<std::size_t>(most + 1) * width_);
     const double* from = store.raw(field).data();
-    for_each_particle(store, Group::fluid, [&](std::size_t i) {
-      std::copy_n(from + i * width_, width_, numbers_.data() + static_cast<std::size_t>(store.ids()[i]) * width_);
+    for_each_particle(store, group, [&](std::size_t i) {
+      std::copy_n(from + i * width_, width_, numbers_.data() + static_cast<std::size_t>(ids[i]) * width_);
     });
   }
-  void give_back(Store<N>& store, int field) const {
+  void give_back(Store<N>& store, Group group, int field) const {
     double* to = store.raw(field).data();
-    for_each_particle(store, Group::fluid,
-                      [&](std::size_t i) { std::ranges::copy(of(store.ids()[i]), to + i * width_); });
+    const auto ids = store.ids();
+    for_each_particle(store, group, [&](std::size_t i) { std::ranges::copy(of(ids[i]), to + i * width_); });
   }
   std::span<const double> of(std::int64_t id) const {
     return std::span(numbers_).subspan(static_cast<std::size_t>(id) * width_, width_);

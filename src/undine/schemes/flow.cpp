@@ -283,6 +283,13 @@ void Flow<N>::restore() {
 }
 
 template <int N>
+std::vector<typename Flow<N>::Evolved> Flow<N>::evolved() const {
+  std::vector<int> moves{v::id};
+  if (!drift_correction().empty()) moves.push_back(v_xsph::id);
+  return {{Group::fluid, x::id, moves}, {Group::fluid, v::id, {acc::id}}};
+}
+
+template <int N>
 std::vector<double*> Flow<N>::accounts() {
   auto& l = ledger_;
   return {&l.viscous, &l.artificial, &l.diffusion, &l.exchange, &l.walls, &l.xsph, &l.body};

@@ -51,6 +51,7 @@ class Gas : public Flow<N> {
       const std::vector<double>& memory);
   void prepare() override;
   std::vector<double*> remembered() override;
+  std::vector<typename Flow<N>::Evolved> evolved() const override;
   void configure();
   void make_plan();
   void add_density_stages();

@@ -71,7 +71,11 @@ template <int N>
 void Gas<N>::make_plan() {
   add_density_stages();
   this->add_update("equation of state", Group::fluid, rules::ApplyThermalEquationOfState{options_.materials});
-  add_ghost_stage("ghosts' state", Fields<rho, p, c, e, omega, alpha_v>::set());
+  // One where nothing computes them.
+  FieldSet ones;
+  if (!options_.iterates()) ones |= Fields<omega>::set();
+  if (!(options_.artificial && options_.limiter)) ones |= Fields<balsara>::set();
+  add_ghost_stage("ghosts' state", Fields<rho, p, c, e, omega, alpha_v>::set() | ones);
   add_gradient_stages();
   this->add_sweep(force_, mirrored_);
   if (options_.repulsion) this->add_sweep(push_, true);
@@ -84,10 +88,6 @@ void Gas<N>::make_plan() {
   FieldSet given = Fields<x, v, m, rho, e, h, alpha_v, x_list>::set();
   if (options_.smoothing == SmoothingLaw::density) given |= Fields<rho_0>::set();
   if (options_.stress) given |= Fields<mu>::set();
-  // One where nothing computes them.
-  FieldSet ones;
-  if (!options_.iterates()) ones |= Fields<omega>::set();
-  if (!(options_.artificial && options_.limiter)) ones |= Fields<balsara>::set();
   this->finish_plan({given, Fields<p, c, acc, de, drho, v_signal, omega, balsara>::set(),
                      Fields<acc_old, x_start, v_start, rho_start>::set(), Resources(Group::fluid, ones)});
   for (const int f : {omega::id, balsara::id})
@@ -260,8 +260,16 @@ void Gas<N>::continuity() {
 }
 
 template <int N>
+std::vector<typename Flow<N>::Evolved> Gas<N>::evolved() const {
+  auto all = Flow<N>::evolved();
+  all.push_back({Group::fluid, e::id, {de::id}});
+  if (options_.density == DensityForm::evolved) all.push_back({Group::fluid, rho::id, {drho::id}});
+  return all;
+}
+
+template <int N>
 void Gas<N>::predict_kick(double dt) {
-  de_before_.take(store_, de::id);
+  de_before_.take(store_, Group::fluid, de::id);
   Flow<N>::predict_kick(dt);
 }
 
@@ -296,15 +304,15 @@ void Gas<N>::smooth() {
 template <int N>
 void Gas<N>::save() {
   Flow<N>::save();
-  e_start_.take(store_, e::id);
-  h_start_.take(store_, h::id);
+  e_start_.take(store_, Group::fluid, e::id);
+  h_start_.take(store_, Group::fluid, h::id);
 }
 
 template <int N>
 void Gas<N>::restore() {
   Flow<N>::restore();
-  e_start_.give_back(store_, e::id);
-  h_start_.give_back(store_, h::id);
+  e_start_.give_back(store_, Group::fluid, e::id);
+  h_start_.give_back(store_, Group::fluid, h::id);
 }
 
 /// What each term took out of kinetic and internal energy together: nothing, where heat is what motion lost.

@@ -46,6 +46,8 @@ class WeaklyCompressible : public Flow<N> {
   void prepare() override;
   std::span<const Vec<N>> drift_correction() const override;
   std::vector<double*> remembered() override;
+  std::vector<typename Flow<N>::Evolved> evolved() const override;
+  void limit_state() override;
   void configure();
   void make_plan();
   void add_wall_stages();

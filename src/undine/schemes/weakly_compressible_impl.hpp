@@ -158,6 +158,24 @@ void WeaklyCompressible<N>::compress(double dt) {
 }
 
 template <int N>
+std::vector<typename Flow<N>::Evolved> WeaklyCompressible<N>::evolved() const {
+  auto all = Flow<N>::evolved();
+  std::vector<int> rates{drho::id};
+  if (diffuses()) rates.push_back(drho_diff::id);
+  if (options_.density == DensityForm::evolved) all.push_back({Group::fluid, rho::id, rates});
+  if (options_.wall_density == WallDensity::evolved) all.push_back({Group::wall, rho::id, {drho::id}});
+  return all;
+}
+
+template <int N>
+void WeaklyCompressible<N>::limit_state() {
+  if (options_.wall_density != WallDensity::evolved || options_.wall_pulls) return;
+  auto density = store_.template get<rho>();
+  const auto rest = store_.template get<rho_0>();
+  for_each_particle(store_, Group::wall, [&](std::size_t i) { density[i] = std::max(density[i], rest[i]); });
+}
+
+template <int N>
 void WeaklyCompressible<N>::continuity() {
   if (options_.density == DensityForm::evolved || options_.wall_density == WallDensity::evolved) this->refresh_lists();
   if (options_.density == DensityForm::evolved) this->run(continuity_);
