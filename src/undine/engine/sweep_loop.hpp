@@ -309,7 +309,7 @@ class SweepLoop {
     KernelValues first;
     [[maybe_unused]] KernelValues of_a, of_b;
     if constexpr (Wish::both) {
-      static_assert((static_cast<int>(Uses::role) == first_role && ...),
+      static_assert(((static_cast<int>(Uses::role) == first_role) && ...),
                     "one kernel for all terms of a sweep that knows both supports");
       of_a = kernel_values_apart(kernels[first_role], base.r, both.of_a);
       of_b = kernel_values_apart(kernels[first_role], base.r, both.of_b);
