@@ -11,13 +11,15 @@ namespace undine {
 namespace detail {
 
 /// Power of a contribution to a rate: force times velocity for `acc` and `acc_wall`, m p / rho^2 times the rate for a
-/// density rate (the work that compression stores), nothing for any other field.
+/// density rate (the work that compression stores), m times a rate of internal energy, nothing for any other field.
 template <class Tag, class Target, class Value>
 double power_of(const Target& a, const Value& rate) {
   if constexpr (std::is_same_v<Tag, field::acc> || std::is_same_v<Tag, field::acc_wall>) {
     return a.m * dot(a.v, rate);
   } else if constexpr (std::is_same_v<Tag, field::drho> || std::is_same_v<Tag, field::drho_diff>) {
     return a.m * a.p / sq(a.rho) * rate;
+  } else if constexpr (std::is_same_v<Tag, field::de>) {
+    return a.m * rate;
   } else {
     return 0.0;
   }
@@ -307,7 +309,7 @@ class SweepLoop {
     KernelValues first;
     [[maybe_unused]] KernelValues of_a, of_b;
     if constexpr (Wish::both) {
-      static_assert((static_cast<int>(Uses::role) == first_role && ...),
+      static_assert(((static_cast<int>(Uses::role) == first_role) && ...),
                     "one kernel for all terms of a sweep that knows both supports");
       of_a = kernel_values_apart(kernels[first_role], base.r, both.of_a);
       of_b = kernel_values_apart(kernels[first_role], base.r, both.of_b);

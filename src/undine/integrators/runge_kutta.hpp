@@ -6,7 +6,7 @@
 namespace undine::integrators {
 
 // The moves that Runge-Kutta integrators need besides evaluate(), book() and smooth() (euler.hpp lists those):
-//   start_stages(n, dt)  keeps the state, makes room for n slopes of a step of about dt
+//   start_stages(n)  keeps the state, makes room for n slopes
 //   take_slope(k)    keeps the rates at hand as slope k
 //   stage(w)         the state of the start plus sum_j w_j slope_j, w in seconds; time goes along by the sum of w
 //   finish(w)        the same as the end of a step, which walls see: paths are reflected and booked
@@ -27,7 +27,7 @@ constexpr std::array<double, n> weights(const double (&coefficients)[room], doub
 /// accounts are of the same order as the state.
 template <class Tableau, class Flow>
 void run_stages(Flow& flow, double dt, int slopes) {
-  flow.start_stages(slopes, dt);
+  flow.start_stages(slopes);
   for (int k = 0; k < Tableau::stages; ++k) {
     if (k > 0) {
       flow.stage(weights<Tableau::stages>(Tableau::a[k], dt));
@@ -42,6 +42,7 @@ void run_stages(Flow& flow, double dt, int slopes) {
 
 template <class Tableau>
 struct RungeKutta {
+  using Coefficients = Tableau;
   static constexpr Info info = Tableau::info;
   static constexpr int order = Tableau::order;
 
@@ -56,6 +57,7 @@ struct RungeKutta {
 /// that broke down. With a control that does not adapt it is a Runge-Kutta scheme like others.
 template <class Tableau>
 struct EmbeddedPair {
+  using Coefficients = Tableau;
   static constexpr Info info = Tableau::info;
   static constexpr int order = Tableau::order;
   static constexpr bool adapts = true;

@@ -84,11 +84,14 @@ class Flow {
   /// A field that is integrated in time and the fields whose sum is its rate; and what a Runge-Kutta step keeps of
   /// both.
   struct Evolved {
+    // Without it g++ 12 breaks down over the initialisers of the last two members.
+    Evolved(Group of, int what, std::vector<int> by) : group(of), field(what), rates(std::move(by)) {}
+
     Group group;
     int field;
     std::vector<int> rates;
-    ById<N> start = {};
-    std::vector<std::vector<ById<N>>> slopes = {};  ///< by stage, then by rate
+    ById<N> start;
+    std::vector<std::vector<ById<N>>> slopes;  ///< by stage, then by rate
   };
 
   Flow(Store<N> store, const Domain<N>& domain, std::shared_ptr<const FlowOptions<N>> options);

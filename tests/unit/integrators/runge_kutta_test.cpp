@@ -38,7 +38,7 @@ struct Pendulum {
   }
   void book(double dt) { booked += dt * damping * now.v * now.v; }
   void smooth() {}
-  void start_stages(int count, double) {
+  void start_stages(int count) {
     start = now;
     booked_start = booked;
     slopes.assign(static_cast<std::size_t>(count), {});
@@ -83,7 +83,7 @@ double distance(const Pendulum& a, const Pendulum& b) {
 template <class F>
 void for_each_runge_kutta(F f) {
   integrators::Integrators::for_each([&]<class Integrator>(Integrator) {
-    if constexpr (requires(Pendulum p) { Integrator::step(p, 0.1); }) f(Integrator{});
+    if constexpr (requires { typename Integrator::Coefficients; }) f(Integrator{});
   });
 }
 
@@ -117,16 +117,15 @@ void check_conditions() {
   }
   EXPECT_NEAR(sum, 1, 1e-15) << Tableau::info.name;
   EXPECT_NEAR(first, 1.0 / 2, 1e-15) << Tableau::info.name;
-  if (Tableau::order >= 3) EXPECT_NEAR(second, 1.0 / 3, 1e-15) << Tableau::info.name;
-  if constexpr (requires { Tableau::error; })
+  if constexpr (Tableau::order >= 3) {
+    EXPECT_NEAR(second, 1.0 / 3, 1e-15) << Tableau::info.name;
+  }
+  if constexpr (requires { Tableau::error; }) {
     EXPECT_NEAR(std::accumulate(std::begin(Tableau::error), std::end(Tableau::error), 0.0), 0, 1e-15);
+  }
 }
 TEST(RungeKutta, CoefficientsMeetTheOrderConditions) {
-  check_conditions<integrators::Heun>();
-  check_conditions<integrators::ShuOsher>();
-  check_conditions<integrators::Classical>();
-  check_conditions<integrators::BogackiShampine>();
-  check_conditions<integrators::DormandPrince>();
+  for_each_runge_kutta([]<class Integrator>(Integrator) { check_conditions<typename Integrator::Coefficients>(); });
 }
 
 /// A run with steps by the error, from a first step that is far too long.

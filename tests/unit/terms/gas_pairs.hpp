@@ -10,11 +10,11 @@
 namespace undine::test {
 
 /// Every field that a term of gases reads or adds to.
+using GasFields = Fields<field::x, field::v, field::m, field::rho, field::p, field::c, field::e, field::h, field::mu,
+                         field::omega, field::alpha_v, field::balsara, field::stress, field::strain, field::acc,
+                         field::de, field::rho_sum, field::rho_sum_h, field::div_acc, field::v_signal>;
 template <int N>
-using GasParticle =
-    Fields<field::x, field::v, field::m, field::rho, field::p, field::c, field::e, field::h, field::mu, field::omega,
-           field::alpha_v, field::balsara, field::stress, field::strain, field::acc, field::de, field::rho_sum,
-           field::rho_sum_h, field::div_acc, field::v_signal>::Row<N, double>;
+using GasParticle = GasFields::Row<N, double>;
 
 constexpr double gas_kappa = 2;
 
