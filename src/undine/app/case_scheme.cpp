@@ -193,7 +193,7 @@ void read_time(const Table& root, const PresetBasics& preset, SchemeChoice& choi
   choice.integrator = time.choice("integrator", integrators::Integrators::names(), std::string(preset.integrator));
   integrators::Integrators::visit(integrators::Integrators::index_of(choice.integrator), [&]<class I>(I) {
     if constexpr (requires { I::adapts; }) {
-      if (time.has("tolerance")) choice.tolerance = time.positive("tolerance", unit::one);
+      if (!time.has("step")) choice.tolerance = time.positive("tolerance", unit::one, 1e-5);
     }
   });
   if (time.has("step") || (preset.fixed_step > 0 && !time.has("courant"))) {

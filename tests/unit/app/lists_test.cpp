@@ -84,13 +84,6 @@ TEST(Lists, HoldEveryEntryInTheOrderOfItsList) {
   EXPECT_EQ(names_of_axis("density_diffusion"), terms::DiffusionForms::names());
   EXPECT_EQ(names_of_axis("velocity_correction"), terms::VelocityCorrections::names());
   EXPECT_EQ(names_of_axis("sums"), terms::Sums::names());
-  EXPECT_EQ(names_of_axis("gas_density"), terms::GradHDensities::names());
-  EXPECT_EQ(names_of_axis("gas_pressure"), terms::GasPressureForms::names());
-  EXPECT_EQ(names_of_axis("gas_energy"), terms::EnergyForms::names());
-  EXPECT_EQ(names_of_axis("gas_viscosity"), terms::GasViscosities::names());
-  EXPECT_EQ(names_of_axis("gas_switch"), terms::ViscositySwitches::names());
-  EXPECT_EQ(names_of_axis("gas_conductivity"), terms::Conductivities::names());
-  EXPECT_EQ(names_of_axis("gas_stress"), terms::StressForms::names());
   EXPECT_EQ(names_of_axis("equations_of_state"), materials::EquationsOfState::names());
   EXPECT_EQ(names_of_axis("walls"), walls::Walls::names());
   EXPECT_EQ(names_of_axis("integrators"), integrators::Integrators::names());
