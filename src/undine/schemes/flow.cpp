@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "undine/core/error.hpp"
+#include "undine/schemes/flow_stages_impl.hpp"
 #include "undine/schemes/particle_rules.hpp"
 
 namespace undine {

@@ -1,8 +1,8 @@
+#pragma once
+// The moves of Runge-Kutta integrators (integrators/runge_kutta.hpp); included by flow.cpp alone.
 #include <cmath>
 
 #include "undine/schemes/flow.hpp"
-
-// The moves of Runge-Kutta integrators (integrators/runge_kutta.hpp).
 
 namespace undine {
 
@@ -130,18 +130,5 @@ void Flow<N>::reject() {
   move_walls();
   evaluate();
 }
-
-#define UNDINE_STAGES(N)                                                                                     \
-  template void Flow<N>::start_stages(int);                                                                  \
-  template void Flow<N>::take_slope(int);                                                                    \
-  template Vec<N> Flow<N>::change(const Evolved&, std::size_t, std::int64_t, std::span<const double>) const; \
-  template double Flow<N>::take_stage(std::span<const double>);                                              \
-  template void Flow<N>::stage(std::span<const double>);                                                     \
-  template void Flow<N>::finish(std::span<const double>);                                                    \
-  template double Flow<N>::stage_error(std::span<const double>) const;                                       \
-  template void Flow<N>::reject();
-UNDINE_STAGES(1)
-UNDINE_STAGES(2)
-UNDINE_STAGES(3)
 
 }  // namespace undine
