@@ -298,7 +298,7 @@ std::vector<double*> Flow<N>::accounts() {
 
 template <int N>
 std::vector<double> Flow<N>::memory() const {
-  std::vector<double> numbers{time_, neighbours_.support()};
+  std::vector<double> numbers{time_, neighbours_.support(), control_.proposed, control_.error_before};
   for (const double* number : const_cast<Flow&>(*this).remembered()) numbers.push_back(*number);
   numbers.push_back(static_cast<double>(escaped_));
   return numbers;
@@ -306,9 +306,16 @@ std::vector<double> Flow<N>::memory() const {
 
 template <int N>
 void Flow<N>::recall(const std::vector<double>& numbers) {
+  const std::size_t expected = remembered().size() + 5;
+  if (numbers.size() != expected)
+    throw InputError({.what = "the checkpoint is of another version of this program",
+                      .why = fmt::format("it remembers {} numbers, this scheme {}", numbers.size(), expected),
+                      .fix = "start again without --resume"});
   auto next = numbers.begin();
   time_ = *next++;
   neighbours_.rebuild_from_list_positions(store_, *next++);
+  control_.proposed = *next++;
+  control_.error_before = *next++;
   if (ghosts_) ghosts_->find_parents(store_);
   for (double* number : remembered()) *number = *next++;
   step_end_ = time_;

@@ -80,7 +80,7 @@ void run(Gas<1>& flow, double end, double dt) {
 GasOptions<1> dissipative() {
   auto o = gas_options(2.0 / count);
   o.artificial = OneOf<terms::GasViscosities>(terms::GasViscositySignal{});
-  o.viscosity_switch = OneOf<terms::ViscositySwitches>(terms::SwitchCullenDehnen{});
+  o.viscosity_switch = ChoiceOf<terms::ViscositySwitches>(terms::SwitchCullenDehnen{});
   o.conductivity = terms::ConductivityPressure{};
   return o;
 }
