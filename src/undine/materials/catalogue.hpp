@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "undine/core/catalogue.hpp"
+#include "undine/materials/eos/ideal_gas.hpp"
 #include "undine/materials/eos/isothermal.hpp"
 #include "undine/materials/eos/linear.hpp"
 #include "undine/materials/eos/polytropic.hpp"
@@ -12,13 +13,21 @@
 
 namespace undine::materials {
 
-/// The one list of equations of state: pressure, sound speed, inverse and elastic energy as functions of density.
+/// The one list of equations of state: pressure, sound speed, inverse and elastic energy as functions of density; those
+/// of gases also as functions of density and internal energy e.
 using EquationsOfState = Catalogue<  //
     TaitSoundSpeed,                  //
     Tait,                            //
     Linear,                          //
     Isothermal,                      //
-    Polytropic>;
+    Polytropic,                      //
+    IdealGas>;
+
+/// Whether pressure depends on internal energy. What does not is barotropic: its e is the work done on it.
+template <class Eos>
+concept Thermal = requires(const Eos& eos) {
+  eos.pressure(1.0, 1.0);
+};
 
 template <class List>
 struct VariantOf;
@@ -65,6 +74,38 @@ struct Material {
   }
   /// The smallest density that particles may carry.
   double smallest_density() const { return tension ? 0.0 : thinnest * density(0); }
+
+  // With the internal energy e, of which only thermal equations take notice.
+  bool is_thermal() const {
+    return std::visit([]<class Eos>(const Eos&) { return Thermal<Eos>; }, eos);
+  }
+  double pressure(double rho, double e) const {
+    return with_energy([&](const auto& gas) { return gas.pressure(rho, e); },
+                       [&](const auto&) { return pressure(rho); });
+  }
+  double sound_speed(double rho, double e) const {
+    return with_energy([&](const auto& gas) { return gas.sound_speed(rho, e); },
+                       [&](const auto& law) { return law.sound_speed(rho); });
+  }
+  /// e at that density and pressure; where pressure does not tell, the elastic energy at that density.
+  double internal_energy(double rho, double p) const {
+    return with_energy([&](const auto& gas) { return gas.internal_energy(rho, p); },
+                       [&](const auto&) { return energy(rho); });
+  }
+
+ private:
+  template <class OfGas, class OfOthers>
+  double with_energy(OfGas of_gas, OfOthers of_others) const {
+    return std::visit(
+        [&]<class Eos>(const Eos& law) {
+          if constexpr (Thermal<Eos>) {
+            return of_gas(law);
+          } else {
+            return of_others(law);
+          }
+        },
+        eos);
+  }
 };
 
 }  // namespace undine::materials

@@ -42,7 +42,41 @@ struct Saalfeld {
   static constexpr int wall_layers = 1;
 };
 
+/// For gases, by validation/niedoba.
+struct Gas {
+  static constexpr Info info{"gas", "What we find best for gases with shocks",
+                             "Quintic spline, rho and H from each other (H = 3.6 dp), variational grad-h forces, "
+                             "viscosity by the signal speed "
+                             "switched as Cullen and Dehnen do, conductivity by the jump of pressure, ideal gas",
+                             "validation/niedoba"};
+  static constexpr bool is_gas = true;
+  static constexpr std::string_view kernel = "quintic_spline", density = "grad_h", law = "number_density",
+                                    mean = "arithmetic", pressure = "grad_h", artificial = "signal", limiter = "none",
+                                    viscosity_switch = "cullen_dehnen", conductivity = "price", eos = "ideal_gas",
+                                    wall = "none", wall_reference = "auto", integrator = "leapfrog";
+  static constexpr double support_over_spacing = 3.6, alpha = 1, beta = 2, fixed_step = 0;
+  static constexpr bool wall_pulls = true, guard = false;
+  static constexpr int wall_layers = 0;
+};
+
+struct Niedoba {
+  static constexpr Info info{
+      "niedoba", "The gas of Niedoba's thesis",
+      "Gaussian, density by continuity, H by the rate of density (H = 3.6 dp), symmetric pressure "
+      "and work, Monaghan's viscosity with alpha = beta = 1, ghosts without friction, ideal gas",
+      "Niedoba (2012), ch. 3"};
+  static constexpr bool is_gas = true;
+  static constexpr std::string_view kernel = "gaussian", density = "continuity", law = "density_rate",
+                                    mean = "arithmetic", pressure = "symmetric", artificial = "monaghan",
+                                    limiter = "none", viscosity_switch = "none", conductivity = "none",
+                                    eos = "ideal_gas", wall = "ghost_free_slip", wall_reference = "auto",
+                                    integrator = "leapfrog";
+  static constexpr double support_over_spacing = 3.6, alpha = 1, beta = 1, fixed_step = 0;
+  static constexpr bool wall_pulls = true, guard = false;
+  static constexpr int wall_layers = 1;
+};
+
 /// The one list of schemes.
-using Presets = Catalogue<Recommended, Saalfeld>;
+using Presets = Catalogue<Recommended, Saalfeld, Gas, Niedoba>;
 
 }  // namespace undine::presets

@@ -185,7 +185,7 @@ TEST(Terms, TurnWithTheirVectors) {
   const auto turn = [&]<class F>(F) {
     for (auto& value : askew.store.get<F>()) value = turned(value);
   };
-  Fields<x, v, v_friction, grad_rho_l>::for_each(turn);
+  Fields<x, v, v_friction, grad_rho_l, acc, stress>::for_each(turn);
   Bench<2> a(straight), b(askew);
   test::for_each_term([&]<class Term>(Term) {
     auto term = example<Term>();
