@@ -307,13 +307,15 @@ class Reader {
 
   /// What keeps pairs apart, if the pressure form has it: it is to stop two particles that meet at the expected speed.
   void read_separation() {
-    setup_.options.pressure.with_chosen([&](auto& form) {
+    auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup_.scheme);
+    if (!liquid) return;
+    liquid->pressure.with_chosen([&](auto& form) {
       if constexpr (requires { form.separation; }) {
         const Table table = root_.table("scheme").table("pressure");
         form.separation = setup_.choice.separation * sq(setup_.expected_speed);
         form.reach = setup_.choice.reach * setup_.spacing;
         read_parameters(table, form);
-        if (!(form.reach > 0 && form.reach <= setup_.options.support.uniform))
+        if (!(form.reach > 0 && form.reach <= liquid->support.uniform))
           table.fail("reach", fmt::format("pairs cannot be kept {:.4g} m apart", form.reach),
                      "it is a distance above zero, and neighbours are known up to the support radius only",
                      fmt::format("take about half a spacing, {:.4g} m", 0.5 * setup_.spacing));
