@@ -52,7 +52,8 @@ void read_smoothing(const Table& scheme, double spacing, double preset_ratio, We
                    "H = {:.4g} m, spacing = {:.4g} m; below 1.2 a particle has no neighbours, above 8 it has thousands",
                    support.uniform, spacing),
                "choose support between 2 and 4 spacings (h_over_spacing about 1.0 to 2.0)");
-  options.rho_law = table.choice("law", {"constant", "density"}, "constant") == "density";
+  options.smoothing = table.choice("law", {"constant", "density"}, "constant") == "density" ? SmoothingLaw::density
+                                                                                            : SmoothingLaw::constant;
   const std::vector<std::string> means{"arithmetic", "geometric", "max", "min"};
   support.mean =
       static_cast<Symmetrisation>(std::ranges::find(means, table.choice("mean", means, "arithmetic")) - means.begin());

@@ -81,7 +81,7 @@ bool due(double interval, double before, double now) {
 }
 
 template <int N>
-Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
+Frame frame_of(const Flow<N>& flow, std::int64_t step, const std::vector<int>& fields,
                std::vector<std::int32_t>& groups) {
   const Store<N>& store = flow.store();
   // Ghosts come last in the store, and are of use to nobody but the run itself.
@@ -122,7 +122,7 @@ double EnergySeries<N>::relative_residual(const Energies& e) const {
 }
 
 template <int N>
-void EnergySeries<N>::add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count) {
+void EnergySeries<N>::add(const Flow<N>& flow, const Step& step, std::int64_t count) {
   const Energies e = flow.energies();
   const auto& l = e.ledger;
   const std::array row{flow.time(),
@@ -163,12 +163,9 @@ void write_progress(const std::filesystem::path& folder, const std::string& text
   std::filesystem::rename(temporary, file, ignored);
 }
 
-template Frame frame_of<1>(const WeaklyCompressible<1>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
-template Frame frame_of<2>(const WeaklyCompressible<2>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
-template Frame frame_of<3>(const WeaklyCompressible<3>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
+template Frame frame_of<1>(const Flow<1>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<2>(const Flow<2>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<3>(const Flow<3>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
 template class EnergySeries<1>;
 template class EnergySeries<2>;
 template class EnergySeries<3>;

@@ -12,7 +12,7 @@
 #include "undine/io/case/document.hpp"
 #include "undine/io/snapshot.hpp"
 #include "undine/io/time_series.hpp"
-#include "undine/schemes/weakly_compressible.hpp"
+#include "undine/schemes/flow.hpp"
 
 namespace undine {
 
@@ -33,7 +33,7 @@ bool due(double interval, double before, double now);
 
 /// The particles as a frame; `group` must live as long as the frame. All fields in use when `fields` is empty.
 template <int N>
-Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
+Frame frame_of(const Flow<N>& flow, std::int64_t step, const std::vector<int>& fields,
                std::vector<std::int32_t>& groups);
 
 /// The columns of energies.csv.
@@ -45,7 +45,7 @@ class EnergySeries {
  public:
   /// Starts the file, or goes on with it after `last_time` (s).
   EnergySeries(const std::filesystem::path& folder, bool resume, double last_time);
-  void add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count);
+  void add(const Flow<N>& flow, const Step& step, std::int64_t count);
   void set_start(double total, double potential);
   double start_total() const { return start_total_; }
   double start_potential() const { return start_potential_; }

@@ -246,7 +246,7 @@ void for_repeated(F f) {
       o.body_force = [](const Vec<2>&, double t) { return Vec<2>{{3 * std::sin(9 * t), 0}}; };
     });
     run("summation", [](auto& o) { o.density = DensityForm::summation; });
-    run("support follows density", [](auto& o) { o.rho_law = true; });
+    run("support follows density", [](auto& o) { o.smoothing = SmoothingLaw::density; });
   }
 }
 

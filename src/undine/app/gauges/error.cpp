@@ -184,7 +184,7 @@ std::vector<SeriesColumn> ErrorGauge<N>::columns() const {
 }
 
 template <int N>
-std::vector<double> ErrorGauge<N>::read(const WeaklyCompressible<N>& flow) const {
+std::vector<double> ErrorGauge<N>::read(const Flow<N>& flow) const {
   const Store<N>& store = flow.store();
   const auto x = store.template get<field::x>();
   const auto v = store.template get<field::v>();

@@ -22,7 +22,7 @@ class ErrorGauge : public Gauge<N> {
   ErrorGauge(const Table& table, const GaugeContext<N>& context);
 
   std::vector<SeriesColumn> columns() const override;
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override;
+  std::vector<double> read(const Flow<N>& flow) const override;
 
  private:
   /// What is compared: pressure, density, the velocity as a vector, or one component of it.
