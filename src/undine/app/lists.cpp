@@ -9,6 +9,7 @@
 
 #include "undine/analysis/exact/catalogue.hpp"
 #include "undine/app/gauges.hpp"
+#include "undine/app/watchdog/causes/catalogue.hpp"
 #include "undine/approximation/catalogue.hpp"
 #include "undine/backend/backend.hpp"
 #include "undine/core/error.hpp"
@@ -160,6 +161,7 @@ std::vector<Axis> make_axes() {
       axis_of_words("precisions", "Number types of the pair arithmetic", precision_names, precision_titles),
       axis_of_infos("gauges", "Instruments that record a run", gauge_infos()),
       axis_of<exact::ExactSolutions>("exact", "Exact solutions, for `undine exact` and the gauge `error`"),
+      axis_of<causes::Causes>("causes", "Why runs go bad, in the order in which the watchdog asks"),
       axis_of_infos("fields", "Quantities of a particle", all_fields),
   };
 }

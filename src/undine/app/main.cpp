@@ -49,7 +49,8 @@ int execute(int argc, char** argv) {
   app.set_version_flag("--version", std::string(program_version()));
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 130 interrupted (checkpoint written).");
+      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 4 output could not be written, 130 "
+      "interrupted (checkpoint written).");
 
   RunOptions run_options;
   bool quiet = false, json = false;
@@ -171,7 +172,7 @@ int main(int argc, char** argv) {
     return exit_run;
   } catch (const Error& error) {
     fmt::print(stderr, "error: {}\n", error.what());
-    return exit_input;
+    return exit_output;
   } catch (const std::exception& error) {
     fmt::print(stderr, "internal error: {}\n", error.what());
     return exit_internal;

@@ -283,4 +283,5 @@ std::vector<double*> WeaklyCompressible<N>::remembered() {
 
 }  // namespace undine
 
+#include "undine/schemes/weakly_compressible_parts_impl.hpp"
 #include "undine/schemes/weakly_compressible_walls_impl.hpp"
