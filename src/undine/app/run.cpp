@@ -18,6 +18,7 @@
 #include "undine/app/run_talk.hpp"
 #include "undine/app/watchdog/post_mortem.hpp"
 #include "undine/app/watchdog/subject.hpp"
+#include "undine/core/stopwatch.hpp"
 #include "undine/io/output_folder.hpp"
 
 namespace undine {
@@ -133,6 +134,7 @@ class Run {
       moment_ = Moment::after_step;
       ++pace_.step;
       pace_.particle_updates += static_cast<double>(flow_->store().range(Group::fluid).size());
+      const Stopwatch watch(pace_.seconds_watch);
       watch_->quickly(*flow_);
     }
   }
@@ -143,6 +145,7 @@ class Run {
            (since >= 128 && due(output_.energies, before_, flow_->time()));
   }
   void look() {
+    const Stopwatch watch(pace_.seconds_watch);
     watch_->fully(*flow_);
     looked_at_ = pace_.step;
   }

@@ -17,6 +17,7 @@ struct Pace {
   std::int64_t step = 0;
   double particle_updates = 0;
   double seconds_output = 0;
+  double seconds_watch = 0;
 
   double seconds() const { return seconds_since(start); }
   /// Particle updates per second.

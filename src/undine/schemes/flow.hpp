@@ -12,7 +12,6 @@
 #include "undine/schemes/energies.hpp"
 #include "undine/schemes/flow_options.hpp"
 #include "undine/schemes/ghosts.hpp"
-#include "undine/schemes/neighbourhood.hpp"
 
 namespace undine {
 
@@ -46,9 +45,6 @@ class Flow {
   /// Force on the walls' particles from the fluid, field acc of the wall group (m/s^2, times m gives N). Changes no
   /// state.
   virtual void evaluate_wall_forces() = 0;
-
-  /// The acceleration of one particle (index in the store), term by term. Changes nothing; in double, one pair at a time.
-  virtual std::vector<ForcePart<N>> force_parts(std::size_t) const { return {}; }
 
   /// What a checkpoint must keep besides the store: time, ledger, powers, the support at the last list build.
   std::vector<double> memory() const;

@@ -1,19 +1,11 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "undine/engine/neighbours.hpp"
 
 namespace undine {
-
-/// A term's part of an acceleration.
-template <int N>
-struct ForcePart {
-  std::string term;  ///< "pressure (wall)"
-  Vec<N> acc{};      ///< m/s^2
-};
 
 /// A particle of fluid with all that may act on it, as a store and lists of their own: for questions about that particle
 /// alone, which may then change what they like.

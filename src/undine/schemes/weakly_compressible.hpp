@@ -26,7 +26,6 @@ class WeaklyCompressible : public Flow<N> {
   Step stable_step(const StepLimits& limits) const override;
   Energies energies() const override;
   void evaluate_wall_forces() override;
-  std::vector<ForcePart<N>> force_parts(std::size_t particle) const override;
 
   const Options& options() const { return options_; }
 

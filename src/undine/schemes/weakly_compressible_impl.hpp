@@ -283,5 +283,4 @@ std::vector<double*> WeaklyCompressible<N>::remembered() {
 
 }  // namespace undine
 
-#include "undine/schemes/weakly_compressible_parts_impl.hpp"
 #include "undine/schemes/weakly_compressible_walls_impl.hpp"

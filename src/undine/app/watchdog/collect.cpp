@@ -7,6 +7,7 @@
 #include "undine/app/watchdog/pair_survey.hpp"
 #include "undine/app/watchdog/watch.hpp"
 #include "undine/integrators/catalogue.hpp"
+#include "undine/schemes/force_parts.hpp"
 #include "undine/search/cell_grid.hpp"
 
 namespace undine {
@@ -194,7 +195,8 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
   p.p = store.template get<field::p>()[i];
   p.c = store.template get<c>()[i];
   if (setup.walls && !setup.walls->empty() && !e.exit.left) p.depth = setup.walls->depth(p.x);
-  for (const auto& part : flow.force_parts(i)) p.forces.push_back({part.term, norm(part.acc)});
+  if (const auto* liquid = dynamic_cast<const WeaklyCompressible<N>*>(&flow))
+    for (const auto& part : force_parts(*liquid, i)) p.forces.push_back({part.term, norm(part.acc)});
   std::ranges::stable_sort(p.forces, std::ranges::greater{}, &ForceShare::size);
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "undine/core/vec.hpp"
+#include "undine/geometry/bounds.hpp"
 
 namespace undine {
 
