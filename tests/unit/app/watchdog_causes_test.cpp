@@ -74,14 +74,17 @@ const std::vector<Planted>& planted() {
        },
        [](Evidence& e) {
          e.setup.layers_missing = 2;
-         e.particle.depth = -0.01;
+         e.before.behind = 0.01;
        }},  // what is guarded holds with one layer too
       {"wall_unguarded",
        [](Evidence& e) {
          e.setup.guarded = false;
-         e.particle.depth = -0.01;
+         e.before.behind = 0.01;
        },
-       [](Evidence& e) { e.particle.depth = -0.01; }},
+       [](Evidence& e) {
+         e.setup.guarded = false;
+         e.before.behind = 0.004;
+       }},
       {"nothing_below",
        [](Evidence& e) {
          left(e, 2);

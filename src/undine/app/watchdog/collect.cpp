@@ -125,7 +125,9 @@ void collect_case(Evidence& e, const CaseSetup<N>& setup, const std::map<std::st
   c.fixed_step = setup.choice.limits.fixed > 0;
   c.euler = setup.choice.integrator == integrators::Euler::info.name;
   c.walls = setup.walls && !setup.walls->empty();
-  c.guarded = static_cast<bool>(setup.choice.reflects);
+  c.guarded = setup.choice.reflects && std::ranges::none_of(resolved, [](const auto& line) {
+                return line.first.starts_with("wall[") && line.first.ends_with(".reflects") && line.second == "false";
+              });
   if (setup.choice.wall_particles)
     c.layers_missing = layers_missing(resolved, static_cast<int>(std::ceil(c.support / c.spacing - 1e-9)));
 
@@ -160,6 +162,7 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
   const auto u = store.template get<v>();
   const auto a = store.template get<acc>();
   const IndexRange fluid = store.range(Group::fluid), wall = store.range(Group::wall);
+  const bool has_walls = setup.walls && !setup.walls->empty();
   const PairSurvey pairs = survey_pairs(flow, setup.spacing);
   auto& b = e.before;
   b.closest = pairs.closest / setup.spacing;
@@ -169,6 +172,7 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
   const auto approach = store.template get<mu_cfl>();
   for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
     b.fastest = std::max(b.fastest, norm(u[i]));
+    if (has_walls) b.behind = std::max(b.behind, -setup.walls->depth(in_3d(at[i])));
     demands.push_back(std::max((store.template get<c>()[i] + (approach.empty() ? 0 : approach[i])) / (0.4 * e.h()),
                                std::sqrt(norm(a[i]) / e.h()) / 0.25));
     if (!flow.options().body_force) continue;
@@ -194,7 +198,7 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
   p.rho_0 = material.rho_0;
   p.p = store.template get<field::p>()[i];
   p.c = store.template get<c>()[i];
-  if (setup.walls && !setup.walls->empty() && !e.exit.left) p.depth = setup.walls->depth(p.x);
+  if (has_walls && !e.exit.left) p.depth = setup.walls->depth(p.x);
   if (const auto* liquid = dynamic_cast<const WeaklyCompressible<N>*>(&flow))
     for (const auto& part : force_parts(*liquid, i)) p.forces.push_back({part.term, norm(part.acc)});
   std::ranges::stable_sort(p.forces, std::ranges::greater{}, &ForceShare::size);

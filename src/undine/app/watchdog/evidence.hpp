@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -55,7 +56,7 @@ struct Evidence {
     bool euler = false;      ///< explicit Euler
     int dimensions = 2;
     bool walls = false;      ///< whether there are any
-    bool guarded = false;    ///< whether surfaces reflect what would pass them
+    bool guarded = false;    ///< whether all surfaces reflect what would pass them
     int layers_missing = 0;  ///< of the thinnest wall of particles, to what H spans
   } setup;
 
@@ -76,6 +77,7 @@ struct Evidence {
     double tension = 0;        ///< share of those with p < 0
     double fastest = 0;        ///< m/s, of the fluid
     double fastest_wall = 0;   ///< m/s
+    double behind = 0;         ///< m, how far the deepest fluid is behind a wall's surface
     double one_against_rest = 1;  ///< largest demand on the step over that of the 99 % easiest
     bool body_force_finite = true;
     double body_force = 0;  ///< m/s^2, largest
@@ -95,6 +97,8 @@ struct Evidence {
   double viscous_number() const { return setup.viscosity * dt / sq(h()); }
   /// What gravity and the initial velocities can give, m/s.
   double natural_speed() const;
+  /// How far fluid is behind the surface of a wall, m.
+  double behind_walls() const { return std::max(before.behind, -particle.depth); }
   bool clumps() const { return alarm == Alarm::coincidence || before.closest < 0.1 || before.clumped > 0.05; }
   /// Whether it left or passed a wall at no more than the speeds that the case has by itself.
   bool left_calmly() const { return exit.left && exit.speed < 2.5 * natural_speed(); }

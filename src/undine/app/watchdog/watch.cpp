@@ -114,6 +114,13 @@ void Watch<N>::check_places(const Flow<N>& flow) const {
 template <int N>
 void Watch<N>::check_pairs(const Flow<N>& flow) const {
   const PairSurvey survey = survey_pairs(flow, subject_.spacing);
+  const auto count = static_cast<double>(std::max<std::size_t>(flow.store().range(Group::fluid).size(), 1));
+  const double share = static_cast<double>(survey.clumped) / count;
+  if (share > limits_.clumped)
+    throw AlarmError({Alarm::coincidence, survey.particle},
+                     {.what = fmt::format("{:.0f} % of the particles have clumped at t = {:.6g} s", 100 * share, flow.time()),
+                      .why = fmt::format("they have another one nearer than 0.3 spacings; the closest two are {:.3g} m apart",
+                                         survey.closest)});
   if (survey.closest >= limits_.closest * subject_.spacing) return;
   throw AlarmError({Alarm::coincidence, survey.particle},
                    {.what = fmt::format("particle {} lies on another one at t = {:.6g} s", survey.particle, flow.time()),

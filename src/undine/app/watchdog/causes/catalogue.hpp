@@ -11,12 +11,12 @@ namespace undine::causes {
 using Causes = Catalogue<     //
     BodyForceNotFinite,       //
     UnitsOfDensity,           //
-    InitialDensity,           //
-    OverlapAtStart,           //
     WildParticle,             //
     WallFasterThanSound,      //
     UnitsOfGravity,           //
     SoundSpeedTooSmall,       //
+    InitialDensity,           //
+    OverlapAtStart,           //
     StepOverCourant,          //
     StepOverViscous,          //
     OneParticleTakesTheStep,  //
@@ -28,7 +28,7 @@ using Causes = Catalogue<     //
     EulerUnstable,            //
     KernelUnfit,              //
     SupportTooSmall,          //
-    TensileClumping,          //
-    MissingViscosity>;
+    MissingViscosity,         //
+    TensileClumping>;
 
 }  // namespace undine::causes

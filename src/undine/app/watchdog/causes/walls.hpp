@@ -7,16 +7,16 @@ namespace undine::causes {
 
 struct WallTooThin {
   static constexpr Info info{"wall_too_thin", "A wall has fewer layers than the support spans",
-                             "particle within H of a wall's surface or behind it, layers < H/spacing, no guard",
+                             "fluid behind a wall's surface by 1/4 spacing or more, layers < H/spacing, no guard",
                              "Adami, Hu & Adams (2012), sec. 2.2"};
   static bool holds(const Evidence& e) {
-    return e.setup.layers_missing > 0 && !e.setup.guarded && e.particle.depth < e.setup.support;
+    return e.setup.layers_missing > 0 && !e.setup.guarded && e.behind_walls() > 0.25 * e.setup.spacing;
   }
   static std::string because(const Evidence& e) {
-    return fmt::format("a wall lacks {} layer{} of particles, nothing reflects at its surface, and the particle is "
-                       "{:.3g} spacings {} it",
+    return fmt::format("a wall lacks {} layer{} of particles, nothing reflects at its surface, and fluid is {:.3g} "
+                       "spacings behind it",
                        e.setup.layers_missing, e.setup.layers_missing == 1 ? "" : "s",
-                       std::abs(e.particle.depth) / e.setup.spacing, e.particle.depth < 0 ? "behind" : "before");
+                       e.behind_walls() / e.setup.spacing);
   }
   static std::string remedy(const Evidence&) {
     return "leave 'layers', 'thin' and 'sheet' of the wall out, or set scheme.wall.guard = true";
@@ -25,13 +25,13 @@ struct WallTooThin {
 
 struct WallUnguarded {
   static constexpr Info info{"wall_unguarded", "Fluid passed a wall that nothing guards",
-                             "particle behind a wall's surface, surfaces do not reflect", ""};
+                             "fluid behind a wall's surface by 1/4 spacing or more, which does not reflect", ""};
   static bool holds(const Evidence& e) {
-    return e.setup.walls && !e.setup.guarded && e.particle.depth < -0.25 * e.setup.spacing;
+    return e.setup.walls && !e.setup.guarded && e.behind_walls() > 0.25 * e.setup.spacing;
   }
   static std::string because(const Evidence& e) {
-    return fmt::format("the particle is {:.3g} spacings behind a wall's surface, and nothing reflects there",
-                       -e.particle.depth / e.setup.spacing);
+    return fmt::format("fluid is {:.3g} spacings behind a wall's surface, and not all of them reflect",
+                       e.behind_walls() / e.setup.spacing);
   }
   static std::string remedy(const Evidence&) {
     return "set scheme.wall.guard = true, or take a treatment that holds ('adami', 'combined')";
