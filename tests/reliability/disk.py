@@ -110,7 +110,7 @@ def read_only(program, folder, mounted):
         def change():
             os.chmod(out, 0o555)
     done = interfere(program, folder, out, change)
-    complains(done, "cannot write", "check that the folder exists and that you may write to it")
+    complains(done, "cannot", "Read-only file system" if mounted else "Permission denied")
     require(sound(program, out) > 3, "what was written before is whole")
 
 
@@ -130,7 +130,9 @@ if __name__ == "__main__":
     inside = MOUNTED in sys.argv
     if name != "vanish" and not inside and can_mount():
         in_a_mount(binary, name)
-    with tempfile.TemporaryDirectory(prefix="undine_disk_") as place:
-        {"full": full, "read_only": read_only, "vanish": vanish}[name](os.path.abspath(binary), place, inside)
-        if inside:
-            subprocess.run(["umount", "--lazy", "--recursive", os.path.join(place, "out")], check=False, capture_output=True)
+    with tempfile.TemporaryDirectory(prefix="undine_disk_", ignore_cleanup_errors=True) as place:
+        try:
+            {"full": full, "read_only": read_only, "vanish": vanish}[name](os.path.abspath(binary), place, inside)
+        finally:
+            if inside:
+                subprocess.run(["umount", "--lazy", "--recursive", os.path.join(place, "out")], check=False, capture_output=True)

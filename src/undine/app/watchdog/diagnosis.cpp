@@ -74,8 +74,7 @@ std::string describe_alarm(const Evidence& e) {
     case Alarm::density:
       return fmt::format("the density of {} is beyond bounds {}", who, when);
     case Alarm::coincidence:
-      return e.before.closest < 0.05 ? fmt::format("{} lies on another one {}", who, when)
-                                     : fmt::format("particles have clumped {}; {} is the closest to another one", when, who);
+      return fmt::format("particles lie on each other {}; {} is the closest to another one", when, who);
     case Alarm::residual:
       return fmt::format("the residual of the energy audit jumped {}", when);
   }
