@@ -195,8 +195,8 @@ class Run {
                              .dt = step_.dt,
                              .step = pace_.step + (moment_ == Moment::within_step ? 1 : 0),
                              .last_good = pace_.step - (moment_ == Moment::after_step ? 1 : 0)};
-    const Examined found = examine(alarmed, *flow_, document_, output_.folder, *checkpoints_,
-                                   [] { return interrupted.load(); });
+    const Examined found =
+        examine(alarmed, *flow_, document_, output_.folder, *checkpoints_, [] { return interrupted.load(); });
     const std::string text = diagnosis_text(found.diagnosis, found.evidence);
     if (talk_.normal()) fmt::print(stderr, "\n{}\n", text);
     const auto file = output_.folder / "diagnosis.txt";

@@ -21,8 +21,8 @@ struct OutputPlan {
   std::filesystem::path folder;
   double snapshots = 0, energies = 0, checkpoints = 0;
   double checkpoint_wall_time = 0;  ///< on the clock, not in the simulation
-  std::vector<int> fields;  ///< of snapshots, as in fields.def
-  bool report = true;       ///< whether a page that shows the run is written at its end
+  std::vector<int> fields;          ///< of snapshots, as in fields.def
+  bool report = true;               ///< whether a page that shows the run is written at its end
 };
 
 /// Reads [output] for a run that ends at `end` (s).

@@ -23,9 +23,7 @@ struct Pace {
   /// Particle updates per second.
   double rate() const { return particle_updates / std::max(1e-9, seconds()); }
   /// Seconds that the rest takes at the pace so far.
-  double remaining(double now) const {
-    return now > from ? std::max(0.0, seconds() * (end - now) / (now - from)) : 0;
-  }
+  double remaining(double now) const { return now > from ? std::max(0.0, seconds() * (end - now) / (now - from)) : 0; }
 };
 
 }  // namespace undine

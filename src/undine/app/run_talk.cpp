@@ -98,9 +98,10 @@ void RunTalk<N>::progress(const Flow<N>& flow, const Pace& pace, const Step& ste
   if (options_.verbosity == Verbosity::json) {
     fmt::print("{}\n", progress_line(flow, pace, step));
   } else {
-    fmt::print("{}  t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
-               terminal ? "\r" : "", flow.time(), pace.end, pace.step, step.dt, step.limiter, pace.rate() * 1e-6,
-               pace.remaining(flow.time()), terminal && !last ? "" : "\n");
+    fmt::print(
+        "{}  t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
+        terminal ? "\r" : "", flow.time(), pace.end, pace.step, step.dt, step.limiter, pace.rate() * 1e-6,
+        pace.remaining(flow.time()), terminal && !last ? "" : "\n");
   }
   std::fflush(stdout);
 }

@@ -19,8 +19,8 @@ std::vector<ForcePart<N>> force_parts(const WeaklyCompressible<N>& flow, std::si
   Neighbourhood<N> near(flow.store(), flow.neighbours(), flow.domain(), particle);
   Support support = options.support;
   support.per_particle = options.supports_vary();
-  const SweepContext<N> run{near.store, near.lists, flow.domain(), support, options.kernels,
-                            options.materials.front().rho_0};
+  const SweepContext<N> run{near.store, near.lists,      flow.domain(),
+                            support,    options.kernels, options.materials.front().rho_0};
   const Backend serial{BackendKind::serial, PairPrecision::double_precision};
   std::vector<ForcePart<N>> parts;
   // One use of a sweep from one group.

@@ -7,8 +7,8 @@
 
 namespace undine {
 
-/// A particle of fluid with all that may act on it, as a store and lists of their own: for questions about that particle
-/// alone, which may then change what they like.
+/// A particle of fluid with all that may act on it, as a store and lists of their own: for questions about that
+/// particle alone, which may then change what they like.
 template <int N>
 struct Neighbourhood {
   Store<N> store;

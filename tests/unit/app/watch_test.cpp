@@ -93,7 +93,8 @@ TEST(Watch, SeesWhatIsNotFiniteOrOutside) {
 TEST(Watch, SeesParticlesThatLieOnEachOtherAcrossAPeriodToo) {
   Watched run;
   auto at = run.flow.store().get<x>();
-  const auto j = run.flow.neighbours().of(Group::fluid, 0, Group::fluid, run.flow.store(), *std::make_unique<Neighbours<2>::Scratch>());
+  const auto j = run.flow.neighbours().of(Group::fluid, 0, Group::fluid, run.flow.store(),
+                                          *std::make_unique<Neighbours<2>::Scratch>());
   std::size_t other = 0;
   for (const std::uint32_t k : j)
     if (k != 0) other = k;

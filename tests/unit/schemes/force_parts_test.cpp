@@ -1,9 +1,10 @@
+#include "undine/schemes/force_parts.hpp"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "flow.hpp"
-#include "undine/schemes/force_parts.hpp"
 
 namespace undine {
 namespace {

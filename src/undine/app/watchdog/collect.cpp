@@ -117,7 +117,8 @@ void collect_case(Evidence& e, const CaseSetup<N>& setup, const std::map<std::st
     c.sound_speed = std::min(c.sound_speed, material.sound_speed(material.rho_0));
     c.stiff = c.stiff && is_stiff(material);
   }
-  c.gradient_peak = gradient_peak<N>(options.kernels[static_cast<std::size_t>(KernelRole::pressure)], c.support / c.spacing);
+  c.gradient_peak =
+      gradient_peak<N>(options.kernels[static_cast<std::size_t>(KernelRole::pressure)], c.support / c.spacing);
   c.summed = options.density != DensityForm::evolved;
   c.damped = options.artificial || options.viscosity;
   if (options.viscosity)
@@ -148,6 +149,7 @@ void collect_case(Evidence& e, const CaseSetup<N>& setup, const std::map<std::st
     s.lowest_density = std::min(s.lowest_density, density);
     s.highest_density = std::max(s.highest_density, density);
     speeds.push_back(norm(store.template get<v>()[i]));
+    if (material.pressure(store.template get<rho>()[i]) < 0) s.tension += 1.0 / static_cast<double>(fluid.size());
   }
   c.depth = c.gravity > 0 && highest > lowest ? (highest - lowest) / c.gravity : 0;
   s.fastest = speeds.empty() ? 0 : *std::ranges::max_element(speeds);
@@ -178,15 +180,18 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
     if (!flow.options().body_force) continue;
     for (const double t : {e.time, e.time + 0.5 * e.dt, e.time + e.dt}) {
       const double strength = norm(flow.options().body_force(at[i], t));
-      if (!std::isfinite(strength)) b.body_force_finite = false;
-      else b.body_force = std::max(b.body_force, strength);
+      if (!std::isfinite(strength))
+        b.body_force_finite = false;
+      else
+        b.body_force = std::max(b.body_force, strength);
     }
   }
   if (!demands.empty()) b.one_against_rest = *std::ranges::max_element(demands) / quantile(demands, 0.99);
   for (std::size_t i = wall.begin; i < wall.end; ++i) b.fastest_wall = std::max(b.fastest_wall, norm(u[i]));
 
   if (e.particle.id < 0 && e.alarm == Alarm::step_collapse && !demands.empty())
-    e.particle.id = store.ids()[fluid.begin + static_cast<std::size_t>(std::ranges::max_element(demands) - demands.begin())];
+    e.particle.id =
+        store.ids()[fluid.begin + static_cast<std::size_t>(std::ranges::max_element(demands) - demands.begin())];
   const std::size_t i = index_of(store, e.particle.id);
   if (i >= fluid.end) return;
   auto& p = e.particle;

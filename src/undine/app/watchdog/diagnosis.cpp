@@ -41,8 +41,9 @@ Diagnosis diagnose(const Evidence& evidence) {
   Diagnosis diagnosis{.cause = "unknown",
                       .title = "No known cause fits",
                       .because = "none of the tests of `undine list causes` holds",
-                      .remedy = "take a smaller step (time.courant = 0.2), a larger speed of sound, or more artificial "
-                                "viscosity; look at the steps in 'window'",
+                      .remedy =
+                          "take a smaller step (time.courant = 0.2), a larger speed of sound, or more artificial "
+                          "viscosity; look at the steps in 'window'",
                       .also = {}};
   bool found = false;
   causes::Causes::for_each([&]<class Cause>(Cause) {
@@ -88,8 +89,8 @@ std::string diagnosis_text(const Diagnosis& d, const Evidence& e) {
   if (a.id >= 0) {
     text += fmt::format("particle  {} at x = {} m, v = {} m/s, acceleration {} m/s^2\n", a.id, vector_text(a.x, n),
                         vector_text(a.v, n), vector_text(a.acc, n));
-    text += fmt::format("state     rho = {:.6g} kg/m^3 (rho_0 = {:.6g}), p = {:.6g} Pa, c = {:.4g} m/s\n", a.rho, a.rho_0,
-                        a.p, a.c);
+    text += fmt::format("state     rho = {:.6g} kg/m^3 (rho_0 = {:.6g}), p = {:.6g} Pa, c = {:.4g} m/s\n", a.rho,
+                        a.rho_0, a.p, a.c);
     if (!a.forces.empty())
       text += fmt::format("terms     largest: {}; {}\n", a.forces.front().term, forces_text(a.forces));
   }

@@ -37,8 +37,9 @@ struct Evidence {
     double rho = 1000, rho_0 = 1000;  ///< kg/m^3
     double p = 0;                     ///< Pa
     double c = 1;                     ///< m/s
-    double depth = std::numeric_limits<double>::infinity();  ///< m, before the surface of the nearest wall; < 0: behind it
-    std::vector<ForceShare> forces;                          ///< the largest first
+    double depth =
+        std::numeric_limits<double>::infinity();  ///< m, before the surface of the nearest wall; < 0: behind it
+    std::vector<ForceShare> forces;               ///< the largest first
   } particle;
 
   /// What the case says.
@@ -47,13 +48,13 @@ struct Evidence {
     double sound_speed = 1;                        ///< m/s, the smallest c_0 of the fluids
     double gravity = 0;                            ///< m/s^2
     double depth = 0;                              ///< m, height of the fluid against gravity at the start
-    double gradient_peak = 0.65;                   ///< r/spacing at which the gradient of the pressure kernel is largest
-    double viscosity = 0;                          ///< m^2/s, the largest of the fluids that acts
-    bool damped = true;                            ///< whether any viscosity acts
-    bool summed = false;                           ///< density by summation
-    bool stiff = true;                             ///< whether all densities must stay near rho_0
+    double gradient_peak = 0.65;  ///< r/spacing at which the gradient of the pressure kernel is largest
+    double viscosity = 0;         ///< m^2/s, the largest of the fluids that acts
+    bool damped = true;           ///< whether any viscosity acts
+    bool summed = false;          ///< density by summation
+    bool stiff = true;            ///< whether all densities must stay near rho_0
     bool fixed_step = false;
-    bool euler = false;      ///< explicit Euler
+    bool euler = false;  ///< explicit Euler
     int dimensions = 2;
     bool walls = false;      ///< whether there are any
     bool guarded = false;    ///< whether all surfaces reflect what would pass them
@@ -62,22 +63,23 @@ struct Evidence {
 
   /// The state at the start of the run.
   struct Start {
-    double closest = 1;                                  ///< spacings
-    double filling = 1, most_filling = 1;                ///< sum_b m_b W_ab / rho_a: median and largest
-    double lowest_density = 1, highest_density = 1;      ///< rho/rho_0
-    double least_mass = 1, most_mass = 1;                ///< m/(rho_0 spacing^N)
-    double fastest = 0, typical_speed = 0;               ///< m/s: largest, and that of the 99 % slowest
-    double neighbours = 20;                              ///< median number within H
+    double closest = 1;                              ///< spacings
+    double filling = 1, most_filling = 1;            ///< sum_b m_b W_ab / rho_a: median and largest
+    double lowest_density = 1, highest_density = 1;  ///< rho/rho_0
+    double tension = 0;                              ///< share of particles with p < 0
+    double least_mass = 1, most_mass = 1;            ///< m/(rho_0 spacing^N)
+    double fastest = 0, typical_speed = 0;           ///< m/s: largest, and that of the 99 % slowest
+    double neighbours = 20;                          ///< median number within H
   } start;
 
   /// The last state in which all was finite.
   struct Before {
-    double closest = 1;        ///< spacings
-    double clumped = 0;        ///< share of particles with a neighbour nearer than 0.3 spacings
-    double tension = 0;        ///< share of those with p < 0
-    double fastest = 0;        ///< m/s, of the fluid
-    double fastest_wall = 0;   ///< m/s
-    double behind = 0;         ///< m, how far the deepest fluid is behind a wall's surface
+    double closest = 1;           ///< spacings
+    double clumped = 0;           ///< share of particles with a neighbour nearer than 0.3 spacings
+    double tension = 0;           ///< share of those with p < 0
+    double fastest = 0;           ///< m/s, of the fluid
+    double fastest_wall = 0;      ///< m/s
+    double behind = 0;            ///< m, how far the deepest fluid is behind a wall's surface
     double one_against_rest = 1;  ///< largest demand on the step over that of the 99 % easiest
     bool body_force_finite = true;
     double body_force = 0;  ///< m/s^2, largest

@@ -6,11 +6,11 @@ namespace undine {
 /// When the watchdog stops a run: [watchdog]. They change no result, only whether the run goes on.
 struct WatchLimits {
   bool active = true;
-  double density = 0.5;         ///< largest |rho/rho_0 - 1| of a stiff liquid; a summed density may be as low as it likes
-  double closest = 0.01;        ///< distance at which particles coincide, spacings
-  double coincident = 0.05;     ///< largest share of particles that do; in 1-D, where they cannot pass, none may
-  double clumped = 0.2;         ///< largest share of particles with another one nearer than 0.3 spacings
-  double residual = 0.25;       ///< largest jump of the audit's residual, of the largest energy so far
+  double density = 0.5;      ///< largest |rho/rho_0 - 1| of a stiff liquid; a summed density may be as low as it likes
+  double closest = 0.01;     ///< distance at which particles coincide, spacings
+  double coincident = 0.05;  ///< largest share of particles that do; in 1-D, where they cannot pass, none may
+  double clumped = 0.2;      ///< largest share of particles with another one nearer than 0.3 spacings
+  double residual = 0.25;    ///< largest jump of the audit's residual, of the largest energy so far
   double smallest_step = 1e-4;  ///< of the step that sound and viscosity allow at rest
 };
 

@@ -12,9 +12,9 @@ inline constexpr double clump_distance = 0.3;  ///< spacings
 struct PairSurvey {
   double closest = std::numeric_limits<double>::infinity();  ///< m
   std::int64_t particle = -1;                                ///< id of one of the closest two
-  std::size_t coincident = 0;                                ///< particles with a neighbour nearer than a given distance
-  std::size_t clumped = 0;                                   ///< particles with a neighbour nearer than 0.3 spacings
-  std::size_t tense = 0;                                     ///< of those, with p < 0
+  std::size_t coincident = 0;  ///< particles with a neighbour nearer than a given distance
+  std::size_t clumped = 0;     ///< particles with a neighbour nearer than 0.3 spacings
+  std::size_t tense = 0;       ///< of those, with p < 0
 
   void join(const PairSurvey& other) {
     // Of several pairs as close, the lowest id: the answer does not depend on who came first.
@@ -46,7 +46,8 @@ PairSurvey survey_pairs(const Flow<N>& flow, double spacing, double coincide = 0
       for (const std::uint32_t j : flow.neighbours().of(Group::fluid, i, Group::fluid, store, scratch))
         if (j != i) nearest_sq = std::min(nearest_sq, norm_sq(flow.domain().nearest_image(x[i] - x[j])));
       const bool clumped = nearest_sq < sq(clump_distance * spacing);
-      part.join({std::sqrt(nearest_sq), store.ids()[i], nearest_sq < sq(coincide * spacing), clumped, clumped && p[i] < 0});
+      part.join(
+          {std::sqrt(nearest_sq), store.ids()[i], nearest_sq < sq(coincide * spacing), clumped, clumped && p[i] < 0});
     }
 #pragma omp critical(undine_pair_survey)
     survey.join(part);

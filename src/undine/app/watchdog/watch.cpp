@@ -113,6 +113,8 @@ void Watch<N>::check_places(const Flow<N>& flow) const {
 
 template <int N>
 void Watch<N>::check_pairs(const Flow<N>& flow) const {
+  // What may be compressed as it likes comes as near as it likes.
+  if (std::ranges::none_of(highest_, [](double bound) { return std::isfinite(bound); })) return;
   const PairSurvey survey = survey_pairs(flow, subject_.spacing, limits_.closest);
   const auto count = static_cast<double>(std::max<std::size_t>(flow.store().range(Group::fluid).size(), 1));
   const auto share = [&](std::size_t particles) { return static_cast<double>(particles) / count; };
@@ -120,12 +122,14 @@ void Watch<N>::check_pairs(const Flow<N>& flow) const {
     throw AlarmError(
         {Alarm::coincidence, survey.particle},
         {.what = fmt::format("{} particles {} at t = {:.6g} s", particles, what, flow.time()),
-         .why = fmt::format("that is {:.2g} % of all, nearer than {} spacings to another one; the closest two are {:.3g} m "
-                            "apart",
-                            100 * share(particles), distance, survey.closest)});
+         .why = fmt::format(
+             "that is {:.2g} % of all, nearer than {} spacings to another one; the closest two are {:.3g} m "
+             "apart",
+             100 * share(particles), distance, survey.closest)});
   };
   // In 1-D particles cannot pass each other. A sum lets those at surfaces clump, which a run may live with.
-  if (share(survey.coincident) > (N == 1 ? 0 : limits_.coincident)) stop(survey.coincident, "coincide", limits_.closest);
+  if (share(survey.coincident) > (N == 1 ? 0 : limits_.coincident))
+    stop(survey.coincident, "coincide", limits_.closest);
   if (!subject_.summed && share(survey.clumped) > limits_.clumped) stop(survey.clumped, "have clumped", clump_distance);
 }
 
@@ -137,10 +141,10 @@ void Watch<N>::audit(const Flow<N>& flow) {
   const double size = std::abs(e.kinetic) + std::abs(e.potential) + std::abs(e.elastic);
   const bool first = std::isnan(total_);
   if (!first && scale_ > 0 && !(jump <= allowed))
-    throw AlarmError({Alarm::residual, -1},
-                     {.what = fmt::format("the residual of the energy audit jumped by {:.3g} J at t = {:.6g} s", jump,
-                                          flow.time()),
-                      .why = fmt::format("the largest energy so far is {:.4g} J", scale_)});
+    throw AlarmError(
+        {Alarm::residual, -1},
+        {.what = fmt::format("the residual of the energy audit jumped by {:.3g} J at t = {:.6g} s", jump, flow.time()),
+         .why = fmt::format("the largest energy so far is {:.4g} J", scale_)});
   total_ = total;
   scale_ = std::max(scale_, size);
 }
@@ -150,8 +154,7 @@ std::optional<Hit> hit_of_state(const Flow<N>& flow) {
   const Store<N>& store = flow.store();
   const auto a = store.template get<acc>();
   const auto bad = [&](std::size_t i) { return !is_finite(store, i) || !std::isfinite(norm_sq(a[i])); };
-  if (const std::size_t i = find_fluid(store, bad); i < store.size())
-    return Hit{Alarm::not_finite, store.ids()[i]};
+  if (const std::size_t i = find_fluid(store, bad); i < store.size()) return Hit{Alarm::not_finite, store.ids()[i]};
   const auto out = [&](std::size_t i) { return !flow.domain().contains(store.template get<x>()[i]); };
   if (const std::size_t i = find_fluid(store, out); i < store.size()) return Hit{Alarm::outside, store.ids()[i]};
   return {};

@@ -31,10 +31,10 @@ template <int N>
 class Watch {
  public:
   struct Subject {
-    double spacing = 0;               ///< m
-    double largest_step = 0;          ///< s, that sound and viscosity allow at rest; 0: steps are fixed
-    bool summed = false;              ///< whether density is a sum, which is low where neighbours lack
-    bool audited = true;              ///< whether the audit closes but for the step
+    double spacing = 0;       ///< m
+    double largest_step = 0;  ///< s, that sound and viscosity allow at rest; 0: steps are fixed
+    bool summed = false;      ///< whether density is a sum, which is low where neighbours lack
+    bool audited = true;      ///< whether the audit closes but for the step
   };
   Watch(const WatchLimits& limits, const Subject& subject, const std::vector<materials::Material>& materials);
 
@@ -58,8 +58,8 @@ class Watch {
 
   WatchLimits limits_;
   Subject subject_;
-  std::vector<double> lowest_, highest_, rest_;  ///< kg/m^3, by material
-  double scale_ = 0;                             ///< J, the largest energy so far
+  std::vector<double> lowest_, highest_, rest_;              ///< kg/m^3, by material
+  double scale_ = 0;                                         ///< J, the largest energy so far
   double total_ = std::numeric_limits<double>::quiet_NaN();  ///< J, at the last audit
 };
 

@@ -5,17 +5,18 @@ namespace undine::causes {
 
 // Why particles come to lie on each other.
 
-/// Where the gradient of W is largest farther out than the spacing, neighbours repel each other the less the nearer they
-/// come.
+/// Where the gradient of W is largest farther out than the spacing, neighbours repel each other the less the nearer
+/// they come.
 struct KernelUnfit {
   static constexpr Info info{"kernel_unfit", "The pressure kernel pushes less, the nearer particles are",
                              "particles clump, and |grad W| of the pressure kernel is largest at r > spacing",
                              "Desbrun & Gascuel (1996); Price (2012), sec. 5.4"};
   static bool holds(const Evidence& e) { return e.clumps() && e.setup.gradient_peak > 1; }
   static std::string because(const Evidence& e) {
-    return fmt::format("the closest pair is {:.3g} spacings apart; the gradient of the pressure kernel is largest at "
-                       "{:.3g} spacings and falls to 0 towards r = 0",
-                       e.before.closest, e.setup.gradient_peak);
+    return fmt::format(
+        "the closest pair is {:.3g} spacings apart; the gradient of the pressure kernel is largest at "
+        "{:.3g} spacings and falls to 0 towards r = 0",
+        e.before.closest, e.setup.gradient_peak);
   }
   static std::string remedy(const Evidence&) {
     return "set scheme.pressure_kernel to \"wendland_c2\" (or \"spiky\"), or lessen the support";
@@ -34,18 +35,20 @@ struct SupportTooSmall {
     return fmt::format("a particle has {:.0f} neighbours within H = {:.3g} spacings", e.start.neighbours,
                        e.setup.support / e.setup.spacing);
   }
-  static std::string remedy(const Evidence&) {
-    return "set scheme.smoothing.support to 2.6 spacings, or leave it out";
-  }
+  static std::string remedy(const Evidence&) { return "set scheme.smoothing.support to 2.6 spacings, or leave it out"; }
 };
 
 struct TensileClumping {
-  static constexpr Info info{"tensile_clumping", "Fluid under tension clumps",
-                             "particles clump, and most of those that do have p < 0",
-                             "Swegle, Hicks & Attaway (1995); Monaghan (2000)"};
-  static bool holds(const Evidence& e) { return e.clumps() && e.before.tension > 0.5; }
+  static constexpr Info info{
+      "tensile_clumping", "Fluid under tension clumps",
+      "particles clump, and most of those that do have p < 0, or most of the fluid had at the start",
+      "Swegle, Hicks & Attaway (1995); Monaghan (2000)"};
+  static bool holds(const Evidence& e) { return e.clumps() && (e.before.tension > 0.5 || e.start.tension > 0.5); }
   static std::string because(const Evidence& e) {
-    return fmt::format("{:.0f} % of the particles that came close have a negative pressure", 100 * e.before.tension);
+    return fmt::format(
+        "{:.0f} % of the particles that came close have a negative pressure, and {:.0f} % of all had one "
+        "at the start",
+        100 * e.before.tension, 100 * e.start.tension);
   }
   static std::string remedy(const Evidence&) {
     return "start at p >= 0, set scheme.wall.pulls = false, or take a pressure kernel and support that resist "

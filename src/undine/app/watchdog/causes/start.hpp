@@ -35,7 +35,8 @@ struct UnitsOfDensity {
 /// A start that differs from rho_0 by more than a stiff liquid can be compressed.
 struct InitialDensity {
   static constexpr Info info{"initial_density", "The fluid starts far from its density at rest",
-                             "at the start rho/rho_0 < 0.8 or > 1.2; with a summed density m/(rho_0 spacing^N) too", ""};
+                             "at the start rho/rho_0 < 0.8 or > 1.2; with a summed density m/(rho_0 spacing^N) too",
+                             ""};
   static bool holds(const Evidence& e) {
     if (!e.setup.stiff) return false;
     if (e.setup.summed) return e.start.least_mass < 0.8 || e.start.most_mass > 1.25;
@@ -77,8 +78,8 @@ struct WildParticle {
            e.start.fastest > 2 * std::sqrt(2 * e.setup.gravity * e.setup.depth);
   }
   static std::string because(const Evidence& e) {
-    return fmt::format("a particle starts with {:.4g} m/s, 99 % of the others with at most {:.4g} m/s",
-                       e.start.fastest, e.start.typical_speed);
+    return fmt::format("a particle starts with {:.4g} m/s, 99 % of the others with at most {:.4g} m/s", e.start.fastest,
+                       e.start.typical_speed);
   }
   static std::string remedy(const Evidence&) { return "look for a wrong number in the particle list or in 'velocity'"; }
 };

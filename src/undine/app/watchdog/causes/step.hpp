@@ -58,10 +58,10 @@ struct UnitsOfGravity {
     return e.setup.gravity > 50 && std::sqrt(2 * e.setup.gravity * e.setup.depth) > 0.3 * e.setup.sound_speed;
   }
   static std::string because(const Evidence& e) {
-    return fmt::format("gravity is {:.4g} m/s^2; over the depth of {:.4g} m it gives {:.4g} m/s, the speed of sound is "
-                       "{:.4g} m/s",
-                       e.setup.gravity, e.setup.depth, std::sqrt(2 * e.setup.gravity * e.setup.depth),
-                       e.setup.sound_speed);
+    return fmt::format(
+        "gravity is {:.4g} m/s^2; over the depth of {:.4g} m it gives {:.4g} m/s, the speed of sound is "
+        "{:.4g} m/s",
+        e.setup.gravity, e.setup.depth, std::sqrt(2 * e.setup.gravity * e.setup.depth), e.setup.sound_speed);
   }
   static std::string remedy(const Evidence&) {
     return "give gravity in m/s^2 (9.81), lengths in m; if they are right, raise the speed of sound";
@@ -87,7 +87,9 @@ struct EulerUnstable {
   static constexpr Info info{"euler_unstable", "Explicit Euler feeds energy into sound", "integrator = euler",
                              "Hairer, Lubich & Wanner (2006), I.1.2"};
   static bool holds(const Evidence& e) { return e.setup.euler && !e.left_calmly(); }
-  static std::string because(const Evidence&) { return "the integrator is 'euler', which is stable for no oscillation"; }
+  static std::string because(const Evidence&) {
+    return "the integrator is 'euler', which is stable for no oscillation";
+  }
   static std::string remedy(const Evidence&) { return "set time.integrator = \"leapfrog\""; }
 };
 
@@ -100,9 +102,10 @@ struct OneParticleTakesTheStep {
                        e.dt, e.particle.id, e.before.one_against_rest);
   }
   static std::string remedy(const Evidence& e) {
-    return fmt::format("see what acts on it ({}); a wall's D, r_0 or exponents may be too strong, or a body force too "
-                       "steep there",
-                       e.particle.forces.empty() ? "unknown" : e.particle.forces.front().term);
+    return fmt::format(
+        "see what acts on it ({}); a wall's D, r_0 or exponents may be too strong, or a body force too "
+        "steep there",
+        e.particle.forces.empty() ? "unknown" : e.particle.forces.front().term);
   }
 };
 

@@ -13,10 +13,10 @@ struct WallTooThin {
     return e.setup.layers_missing > 0 && !e.setup.guarded && e.behind_walls() > 0.25 * e.setup.spacing;
   }
   static std::string because(const Evidence& e) {
-    return fmt::format("a wall lacks {} layer{} of particles, nothing reflects at its surface, and fluid is {:.3g} "
-                       "spacings behind it",
-                       e.setup.layers_missing, e.setup.layers_missing == 1 ? "" : "s",
-                       e.behind_walls() / e.setup.spacing);
+    return fmt::format(
+        "a wall lacks {} layer{} of particles, nothing reflects at its surface, and fluid is {:.3g} "
+        "spacings behind it",
+        e.setup.layers_missing, e.setup.layers_missing == 1 ? "" : "s", e.behind_walls() / e.setup.spacing);
   }
   static std::string remedy(const Evidence&) {
     return "leave 'layers', 'thin' and 'sheet' of the wall out, or set scheme.wall.guard = true";
@@ -75,7 +75,8 @@ struct LeftThroughGap {
     return e.left_calmly() && e.setup.walls && e.particle.depth > -0.25 * e.setup.spacing;
   }
   static std::string because(const Evidence& e) {
-    return fmt::format("the particle left the domain at {:.4g} m/s where no wall's surface is in the way", e.exit.speed);
+    return fmt::format("the particle left the domain at {:.4g} m/s where no wall's surface is in the way",
+                       e.exit.speed);
   }
   static std::string remedy(const Evidence&) {
     return "close the walls: look at 'open', and for gaps between shapes; or widen [domain]";
