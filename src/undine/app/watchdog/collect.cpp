@@ -80,6 +80,7 @@ void collect_filling(Evidence::Start& start, const CaseSetup<N>& setup) {
     grid.find(at[i], H, found);
     double sum = 0;
     for (const std::uint32_t j : found) {
+      if (j >= fluid.end) continue;  // a sheet of wall particles lies closer by intention
       const double r = norm(setup.domain.nearest_image(at[i] - at[j]));
       sum += mass[j] * kernel.template w<N>(r / H) / std::pow(H, N);
       if (j != i) closest = std::min(closest, r);
