@@ -100,7 +100,13 @@ def read_only(program, folder, mounted):
         # A file system that is still written to cannot be made read-only; a lazy unmount and a read-only copy of it can.
         def change():
             copy = os.path.join(folder, "copy")
-            shutil.copytree(out, copy)
+            for _ in range(50):  # files come and go while they are copied
+                try:
+                    shutil.rmtree(copy, ignore_errors=True)
+                    shutil.copytree(out, copy, ignore=shutil.ignore_patterns("*.tmp", "*.checkpoint"))
+                    break
+                except (shutil.Error, OSError):
+                    continue
             subprocess.run(["mount", "--bind", copy, out], check=True)
             subprocess.run(["mount", "-o", "remount,ro,bind", out], check=True)
     else:
@@ -110,7 +116,10 @@ def read_only(program, folder, mounted):
         def change():
             os.chmod(out, 0o555)
     done = interfere(program, folder, out, change)
-    complains(done, "cannot", "Read-only file system" if mounted else "Permission denied")
+    complains(done, "cannot")
+    # Between a temporary file and its name the swap of the folder itself may be what is met.
+    reasons = ("Read-only file system", "No such file or directory") if mounted else ("Permission denied",)
+    require(any(reason in done.stderr for reason in reasons), f"it says why: {done.stderr.strip()[:300]}")
     require(sound(program, out) > 3, "what was written before is whole")
 
 
