@@ -2,21 +2,25 @@
 
 #include "undine/app/checkpoints.hpp"
 #include "undine/integrators/catalogue.hpp"
-#include "undine/schemes/weakly_compressible.hpp"
 
 namespace undine {
 
 template <int N>
-std::unique_ptr<Flow<N>> make_flow(CaseSetup<N>& setup, const OwnedCheckpoint* checkpoint) {
-  std::unique_ptr<Flow<N>> flow;
-  if (checkpoint) {
-    flow = std::make_unique<WeaklyCompressible<N>>(store_from<N>(checkpoint->frame), setup.domain, setup.options,
-                                                   checkpoint->state.lists.at("memory"));
-  } else {
-    flow = std::make_unique<WeaklyCompressible<N>>(std::move(setup.store), setup.domain, setup.options);
-  }
+std::unique_ptr<Flow<N>> start_flow(CaseSetup<N>& setup, const OwnedCheckpoint* checkpoint) {
+  auto flow = checkpoint ? make_flow<N>(store_from<N>(checkpoint->frame), setup.domain, setup.scheme,
+                                        checkpoint->state.lists.at("memory"))
+                         : make_flow<N>(std::move(setup.store), setup.domain, setup.scheme);
   flow->set_potential_origin(setup.potential_origin);
+  flow->step_control().tolerance = setup.choice.tolerance;
   return flow;
+}
+
+template <int N>
+Step next_step(Flow<N>& flow, const SchemeChoice& choice) {
+  const Step step = flow.stable_step(choice.limits);
+  const auto& control = flow.step_control();
+  if (control.adapts() && control.proposed > 0 && control.proposed < step.dt) return {control.proposed, "tolerance"};
+  return step;
 }
 
 template <int N>
@@ -25,9 +29,12 @@ void take_step(Flow<N>& flow, const SchemeChoice& choice, double dt) {
   Integrators::visit(Integrators::index_of(choice.integrator), [&]<class I>(I) { I::step(flow, dt); });
 }
 
-template std::unique_ptr<Flow<1>> make_flow(CaseSetup<1>&, const OwnedCheckpoint*);
-template std::unique_ptr<Flow<2>> make_flow(CaseSetup<2>&, const OwnedCheckpoint*);
-template std::unique_ptr<Flow<3>> make_flow(CaseSetup<3>&, const OwnedCheckpoint*);
+template std::unique_ptr<Flow<1>> start_flow(CaseSetup<1>&, const OwnedCheckpoint*);
+template std::unique_ptr<Flow<2>> start_flow(CaseSetup<2>&, const OwnedCheckpoint*);
+template std::unique_ptr<Flow<3>> start_flow(CaseSetup<3>&, const OwnedCheckpoint*);
+template Step next_step(Flow<1>&, const SchemeChoice&);
+template Step next_step(Flow<2>&, const SchemeChoice&);
+template Step next_step(Flow<3>&, const SchemeChoice&);
 template void take_step(Flow<1>&, const SchemeChoice&, double);
 template void take_step(Flow<2>&, const SchemeChoice&, double);
 template void take_step(Flow<3>&, const SchemeChoice&, double);

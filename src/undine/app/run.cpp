@@ -40,7 +40,7 @@ class Run {
         gauges_(document.root(), gauge_context(setup_, output_)),
         talk_(options_, setup_, output_),
         clock_(output_.checkpoints, output_.checkpoint_wall_time) {
-    for (const int f : output_.fields) setup_.options.kept.set(static_cast<std::size_t>(f));
+    for (const int f : output_.fields) setup_.options().kept.set(static_cast<std::size_t>(f));
     document.finish();
     checkpoints_.emplace(output_.folder, fitting_keys(document), case_hash(document));
   }
@@ -80,8 +80,8 @@ class Run {
     if (unbegun) talk_.warn("the earlier run ended before its first checkpoint; this one starts from the beginning");
     if (found) say_refused(*found);
     talk_.describe();
-    watch_.emplace(limits_, watch_subject(setup_), setup_.options.materials);
-    flow_ = make_flow(setup_, found ? &found->checkpoint : nullptr);
+    watch_.emplace(limits_, watch_subject(setup_), setup_.options().materials);
+    flow_ = start_flow(setup_, found ? &found->checkpoint : nullptr);
     talk_.plan(*flow_);
 
     const double resumed_at = found ? flow_->time() : -1;
@@ -115,7 +115,7 @@ class Run {
 
   /// Steps until the end, each looked at before anything of it is kept.
   void advance() {
-    step_ = flow_->stable_step(setup_.choice.limits);
+    step_ = next_step(*flow_, setup_.choice);
     while (true) {
       const bool last = flow_->time() >= setup_.choice.end * (1 - 1e-12) || interrupted;
       const bool first = before_ < 0;
@@ -125,7 +125,7 @@ class Run {
       if (keeps_state) write_checkpoint();
       if (last) return;
       talk_.progress(*flow_, pace_, step_, false);
-      step_ = flow_->stable_step(setup_.choice.limits);
+      step_ = next_step(*flow_, setup_.choice);
       moment_ = Moment::chosen_step;
       watch_->step(*flow_, step_);
       before_ = flow_->time();

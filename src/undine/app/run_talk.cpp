@@ -15,25 +15,23 @@ namespace undine {
 template <int N>
 void RunTalk<N>::describe() const {
   if (!normal()) return;
-  const auto& o = setup_.options;
+  const auto& o = setup_.options();
   const auto& store = setup_.store;
   const auto preset = presets::Presets::info(setup_.choice.preset).name;
   fmt::print("{}\n", setup_.title.empty() ? options_.file.string() : setup_.title);
   fmt::print("  particles   {} fluid, {} wall, spacing {:.4g} m, support {:.4g} m ({:.3g} spacings)\n",
              store.range(Group::fluid).size(), store.range(Group::wall).size(), setup_.spacing, o.support.uniform,
              o.support.uniform / setup_.spacing);
-  fmt::print("  scheme      {}: kernel {}, pressure {}, {}{}{}{}{}\n", preset, o.kernels[0].info().name,
-             o.pressure.info().name,
-             o.density == DensityForm::evolved ? std::string(o.continuity.info().name) : "summation",
-             o.viscosity ? fmt::format(", viscosity {}", o.viscosity->info().name) : "",
-             o.artificial ? fmt::format(", artificial viscosity {}", o.artificial->info().name) : "",
-             o.diffusion ? fmt::format(", diffusion {}", o.diffusion->info().name) : "", o.xsph ? ", XSPH" : "");
+  fmt::print("  scheme      {}: kernel {}, {}\n", preset, o.kernels[0].info().name, describe_terms<N>(setup_.scheme));
   fmt::print("  backend     {} x {}, pairs in {}, search {}\n", backend_names[static_cast<int>(o.backend.kind)],
              omp_get_max_threads(), precision_names[static_cast<int>(o.backend.precision)], o.neighbours.search);
-  for (const auto& material : o.materials)
-    fmt::print("  material    {}: rho_0 {:.6g} kg/m^3, c_0 {:.4g} m/s ({:.3g} x expected speed), mu {:.3g} Pa s\n",
-               material.name, material.rho_0, material.sound_speed(material.rho_0),
-               material.sound_speed(material.rho_0) / setup_.expected_speed, material.mu);
+  for (const auto& material : o.materials) {
+    fmt::print("  material    {}: rho_0 {:.6g} kg/m^3", material.name, material.rho_0);
+    if (!setup_.choice.is_gas)
+      fmt::print(", c_0 {:.4g} m/s ({:.3g} x expected speed)", material.sound_speed(material.rho_0),
+                 material.sound_speed(material.rho_0) / setup_.expected_speed);
+    fmt::print(", mu {:.3g} Pa s\n", material.mu);
+  }
   const auto& limits = setup_.choice.limits;
   fmt::print("  time        to {:.6g} s, {}, {}\n", setup_.choice.end, setup_.choice.integrator,
              limits.fixed > 0 ? fmt::format("fixed step {:.4g} s", limits.fixed)

@@ -68,8 +68,8 @@ void collect_filling(Evidence::Start& start, const CaseSetup<N>& setup) {
   const auto at = store.template get<x>();
   const auto mass = store.template get<m>();
   const auto density = store.template get<rho>();
-  const double H = setup.options.support.uniform;
-  const KernelChoice kernel = setup.options.kernels[static_cast<std::size_t>(KernelRole::density)];
+  const double H = setup.options().support.uniform;
+  const KernelChoice kernel = setup.options().kernels[static_cast<std::size_t>(KernelRole::density)];
   CellGrid<N> grid;
   grid.build(at, H, setup.domain);
   std::vector<std::uint32_t> found;
@@ -103,7 +103,7 @@ std::size_t index_of(const Store<N>& store, std::int64_t id) {
 
 template <int N>
 void collect_case(Evidence& e, const CaseSetup<N>& setup, const std::map<std::string, std::string>& resolved) {
-  const auto& options = setup.options;
+  const auto& options = setup.options();
   const Store<N>& store = setup.store;
   const IndexRange fluid = store.range(Group::fluid);
   auto& c = e.setup;
@@ -120,10 +120,13 @@ void collect_case(Evidence& e, const CaseSetup<N>& setup, const std::map<std::st
   }
   c.gradient_peak =
       gradient_peak<N>(options.kernels[static_cast<std::size_t>(KernelRole::pressure)], c.support / c.spacing);
-  c.summed = options.density != DensityForm::evolved;
-  c.damped = options.artificial || options.viscosity;
-  if (options.viscosity)
-    for (const auto& material : options.materials) c.viscosity = std::max(c.viscosity, material.mu / material.rho_0);
+  if (setup.choice.is_gas) c.sound_speed = 1;  // of the gas as it is: collect_state
+  if (const auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup.scheme)) {
+    c.summed = liquid->density != DensityForm::evolved;
+    c.damped = liquid->artificial || liquid->viscosity;
+    if (liquid->viscosity)
+      for (const auto& material : options.materials) c.viscosity = std::max(c.viscosity, material.mu / material.rho_0);
+  }
   c.fixed_step = setup.choice.limits.fixed > 0;
   c.euler = setup.choice.integrator == integrators::Euler::info.name;
   c.walls = setup.walls && !setup.walls->empty();
@@ -171,6 +174,9 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
   b.closest = pairs.closest / setup.spacing;
   b.clumped = static_cast<double>(pairs.clumped) / static_cast<double>(std::max<std::size_t>(fluid.size(), 1));
   b.tension = pairs.clumped ? static_cast<double>(pairs.tense) / static_cast<double>(pairs.clumped) : 0;
+  if (setup.choice.is_gas)
+    for (std::size_t i = fluid.begin; i < fluid.end; ++i)
+      e.setup.sound_speed = std::max(e.setup.sound_speed, store.template get<c>()[i]);
   std::vector<double> demands;
   const auto approach = store.template get<mu_cfl>();
   for (std::size_t i = fluid.begin; i < fluid.end; ++i) {

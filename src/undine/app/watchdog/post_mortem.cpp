@@ -55,12 +55,12 @@ std::unique_ptr<Flow<N>> come_back(CaseSetup<N>& setup, const Checkpoints& check
   if (found && found->checkpoint.frame.step > last) found.reset();
   try {
     std::int64_t step = found ? found->checkpoint.frame.step : 0;
-    auto flow = make_flow(setup, found ? &found->checkpoint : nullptr);
+    auto flow = start_flow(setup, found ? &found->checkpoint : nullptr);
     for (;; ++step) {
       if (step + window_steps > last) window.add(*flow, step);
       if (step == last) return flow;
       if (stop()) return {};
-      take_step(*flow, setup.choice, flow->stable_step(setup.choice.limits).dt);
+      take_step(*flow, setup.choice, next_step(*flow, setup.choice).dt);
     }
   } catch (const RunError&) {
     return {};
