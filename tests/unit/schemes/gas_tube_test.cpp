@@ -78,25 +78,25 @@ TEST(Gas, SodsTube) {
   EXPECT_LT(coarse / half, 0.6);
 }
 
-// Criterion: while the shock runs the switch keeps alpha within its bounds, near the top in the shock and near the
-// bottom in the gas at rest before it.
+// Criterion: while the shock runs the switch keeps alpha within its bounds, above 0.7 in the shock and below 0.1 in the
+// gas at rest before it.
 TEST(Gas, SwitchActsInTheShockAlone) {
   const test::Threads one(1);
   Tube tube(200);
   Gas<1> flow(Store<1>(tube.store), tube.domain, tube.options);
   const StepLimits limits{.courant = 0.3};
   while (flow.time() < 0.1) integrators::Leapfrog::step(flow, flow.stable_step(limits).dt);
-  double largest = 0, at = 0;
+  double in_shock = 0;
+  const double shock = 1.7522 * flow.time();  // the speed of Sod's shock
   const IndexRange fluid = flow.store().range(Group::fluid);
   for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
     const double alpha = flow.store().get<alpha_v>()[i], place = flow.store().get<x>()[i][0];
     EXPECT_GE(alpha, 0);
     EXPECT_LE(alpha, 2);
     if (place > 0.35) EXPECT_LT(alpha, 0.1) << place;
-    if (alpha > largest) largest = alpha, at = place;
+    if (std::abs(place - shock) < 0.03) in_shock = std::max(in_shock, alpha);
   }
-  EXPECT_GT(largest, 0.7);
-  EXPECT_NEAR(at, 1.7522 * flow.time(), 0.05);  // the speed of Sod's shock
+  EXPECT_GT(in_shock, 0.7);
 }
 
 // Criterion: a run that goes on from its memory has the same bits as one that was not interrupted.
