@@ -122,6 +122,8 @@ SchemeChoice read_liquid(const Table& root, double spacing, WeaklyCompressibleOp
   options.continuity.choose(std::max(0, terms::ContinuityForms::index_of(density)));
   options.pressure.choose(
       terms::PressureForms::index_of(read_form<terms::PressureForms>(scheme.table("pressure"), Preset::pressure)));
+  choice.separation = Preset::separation;
+  choice.reach = Preset::reach;
   options.viscosity = read_optional<terms::ViscosityForms>(scheme.table("viscosity"), Preset::viscosity);
   options.diffusion = read_optional<terms::DiffusionForms>(scheme.table("density_diffusion"), Preset::diffusion);
   terms::ViscosityMonaghan artificial;
@@ -266,6 +268,10 @@ materials::Material read_material(const Table& table, const SchemeChoice& choice
     read_parameters(eos, law);
     material.eos = law;
   });
+  // Without gravity nothing presses a liquid together: a closed flow needs its tension.
+  const bool falls = std::ranges::any_of(choice.gravity, [](double g) { return g != 0; });
+  const bool bears = presets::Presets::visit(choice.preset, [](auto p) { return decltype(p)::tension; });
+  material.tension = eos.flag("tension", bears || !falls);
   const double c = material.sound_speed(material.rho_0);
   if (!choice.is_gas && c < 9.999 * expected_speed)
     warnings.push_back(

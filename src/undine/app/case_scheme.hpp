@@ -28,10 +28,11 @@ struct SchemeChoice {
   std::string wall_reference;         ///< "auto", "rho_0" or empty: `wall_reference_density`
   double wall_reference_density = 0;  ///< kg/m^3
   double restitution = 1;
-  double alpha_at_start = 0;    ///< of the artificial viscosity of a gas
-  double support_growth = 1;    ///< how far H may grow where walls mirror the fluid
-  int wall_layers = 0;          ///< 0: as many as the support needs
-  std::vector<double> gravity;  ///< m/s^2, one per dimension
+  double alpha_at_start = 0;         ///< of the artificial viscosity of a gas
+  double support_growth = 1;         ///< how far H may grow where walls mirror the fluid
+  double separation = 0, reach = 0;  ///< defaults of what keeps pairs apart: of (expected speed)^2, of the spacing
+  int wall_layers = 0;               ///< 0: as many as the support needs
+  std::vector<double> gravity;       ///< m/s^2, one per dimension
 };
 
 /// The options of one of the schemes.

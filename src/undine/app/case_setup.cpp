@@ -305,6 +305,22 @@ class Reader {
     setup_.options().repulsion = repulsion;
   }
 
+  /// What keeps pairs apart, if the pressure form has it: it is to stop two particles that meet at the expected speed.
+  void read_separation() {
+    setup_.options.pressure.with_chosen([&](auto& form) {
+      if constexpr (requires { form.separation; }) {
+        const Table table = root_.table("scheme").table("pressure");
+        form.separation = setup_.choice.separation * sq(setup_.expected_speed);
+        form.reach = setup_.choice.reach * setup_.spacing;
+        read_parameters(table, form);
+        if (!(form.reach > 0 && form.reach <= setup_.options.support.uniform))
+          table.fail("reach", fmt::format("pairs cannot be kept {:.4g} m apart", form.reach),
+                     "it is a distance above zero, and neighbours are known up to the support radius only",
+                     fmt::format("take about half a spacing, {:.4g} m", 0.5 * setup_.spacing));
+      }
+    });
+  }
+
   void check_names() {
     std::set<std::string> names;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -445,6 +461,7 @@ class Reader {
                                            fastest_wall_, speed),
                         .fix = fmt::format("set expected_speed, such as {:.4g} (m/s)", fastest_wall_)});
     setup_.expected_speed = root_.positive("expected_speed", unit::velocity, std::max(speed, 1e-6));
+    read_separation();
     if (setup_.choice.wall_force == walls::WallForce::repulsion) read_repulsion();
     for (const Table& table : fluids)
       setup_.options().materials.push_back(read_material(table, setup_.choice, setup_.expected_speed, setup_.warnings));

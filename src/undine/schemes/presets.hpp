@@ -12,13 +12,15 @@ struct Recommended {
   static constexpr Info info{
       "recommended", "What we find best for free-surface water",
       "Wendland C2, H = 2.6 dp, continuity, symmetric pressure, Tait by sound speed, fourtakas diffusion, "
-      "alpha = 0.02, Adami walls that never pull, guarded by reflection",
+      "alpha = 0.02, no tension under gravity, pairs kept apart, Adami walls that never pull, guarded by reflection",
       "docs/decisions.md"};
   static constexpr std::string_view kernel = "wendland_c2", density = "continuity", pressure = "symmetric",
                                     viscosity = "none", artificial = "monaghan", diffusion = "fourtakas", xsph = "none",
                                     xsph_target = "position", eos = "tait_sound_speed", wall = "adami",
                                     wall_reference = "auto", integrator = "leapfrog";
   static constexpr double support_over_spacing = 2.6, alpha = 0.02, epsilon = 0.5, fixed_step = 0;
+  static constexpr double separation = 10, reach = 0.5;  ///< of (expected speed)^2, of the spacing
+  static constexpr bool tension = false;                 ///< of liquids under gravity; others bear it
   static constexpr bool wall_pulls = false, guard = true;
   static constexpr int wall_layers = 0;  ///< 0: as many as the support needs
 };
@@ -34,6 +36,8 @@ struct Saalfeld {
                                     xsph_target = "velocity", eos = "tait", wall = "combined", wall_reference = "rho_0",
                                     integrator = "leapfrog";
   static constexpr double support_over_spacing = 2.25, alpha = 0.02, epsilon = 0.1, fixed_step = 1e-3;
+  static constexpr double separation = 0, reach = 0.5;
+  static constexpr bool tension = true;
   static constexpr bool wall_pulls = true, guard = false;
   static constexpr int wall_layers = 1;
 };

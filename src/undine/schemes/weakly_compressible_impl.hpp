@@ -146,10 +146,15 @@ void WeaklyCompressible<N>::compress(double dt) {
   auto density = store_.template get<rho>();
   const auto rate = store_.template get<drho>();
   const auto diffused = store_.template get<drho_diff>();
-  if (options_.density == DensityForm::evolved)
+  if (options_.density == DensityForm::evolved) {
+    std::vector<double> smallest;
+    for (const auto& substance : options_.materials) smallest.push_back(substance.smallest_density());
+    const auto material = store_.materials();
     for_each_particle(store_, Group::fluid, [&, diffuses = diffuses()](std::size_t i) {
       density[i] += dt * (diffuses ? rate[i] + diffused[i] : rate[i]);
+      density[i] = std::max(density[i], smallest[material[i]]);
     });
+  }
   if (options_.wall_density == WallDensity::evolved)
     for_each_particle(store_, Group::wall, [&](std::size_t i) {
       density[i] += dt * rate[i];

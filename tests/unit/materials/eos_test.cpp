@@ -164,5 +164,26 @@ TEST(EquationsOfState, MaterialsPassTheInternalEnergyOn) {
   });
 }
 
+// Criterion: without tension p is that of the law where it presses and 0 elsewhere, energy is its work to 1e-8 of
+// c^2/rho, and particles may thin out to 0.9 of the density at p = 0; with tension everything is the law's.
+TEST(Materials, WithoutTensionPressureIsNeverNegative) {
+  for_all([](const auto& eos) {
+    Material with, without;
+    with.rho_0 = without.rho_0 = eos.rho_0;
+    with.eos = without.eos = eos;
+    without.tension = false;
+    EXPECT_EQ(with.smallest_density(), 0);
+    EXPECT_EQ(without.smallest_density(), 0.9 * eos.density(0));
+    for (const double ratio : {0.5, 0.9, 0.97, 1.02, 1.1}) {
+      const double rho = ratio * eos.rho_0, p = eos.pressure(rho), c = eos.sound_speed(eos.rho_0);
+      EXPECT_EQ(with.pressure(rho), p);
+      EXPECT_EQ(with.energy(rho), eos.energy(rho));
+      EXPECT_EQ(without.pressure(rho), p > 0 ? p : 0) << ratio;
+      const double work = derivative([&](double r) { return without.energy(r); }, rho);
+      EXPECT_NEAR(work * rho * rho, without.pressure(rho), 1e-8 * c * c * rho) << ratio;
+    }
+  });
+}
+
 }  // namespace
 }  // namespace undine::materials
