@@ -268,10 +268,13 @@ materials::Material read_material(const Table& table, const SchemeChoice& choice
     read_parameters(eos, law);
     material.eos = law;
   });
-  // Without gravity nothing presses a liquid together: a closed flow needs its tension.
-  const bool falls = std::ranges::any_of(choice.gravity, [](double g) { return g != 0; });
-  const bool bears = presets::Presets::visit(choice.preset, [](auto p) { return decltype(p)::tension; });
-  material.tension = eos.flag("tension", bears || !falls);
+  presets::Presets::visit(choice.preset, [&]<class Preset>(Preset) {
+    if constexpr (requires { Preset::tension; }) {
+      // Without gravity nothing presses a liquid together: a closed flow needs its tension.
+      const bool falls = std::ranges::any_of(choice.gravity, [](double g) { return g != 0; });
+      material.tension = eos.flag("tension", Preset::tension || !falls);
+    }
+  });
   const double c = material.sound_speed(material.rho_0);
   if (!choice.is_gas && c < 9.999 * expected_speed)
     warnings.push_back(

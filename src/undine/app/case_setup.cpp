@@ -316,7 +316,7 @@ class Reader {
         form.separation = setup_.choice.separation * sq(setup_.expected_speed);
         form.reach = setup_.choice.reach * setup_.spacing;
         read_parameters(table, form);
-        if (!(form.reach > 0 && form.reach <= setup_.options().support.uniform))
+        if (!(form.reach > 0 && form.reach <= liquid->support.uniform))
           table.fail("reach", fmt::format("pairs cannot be kept {:.4g} m apart", form.reach),
                      "it is a distance above zero, and neighbours are known up to the support radius only",
                      fmt::format("take about half a spacing, {:.4g} m", 0.5 * setup_.spacing));
