@@ -14,6 +14,7 @@
 #include "undine/app/gauges/context.hpp"
 #include "undine/app/machine.hpp"
 #include "undine/app/report/report.hpp"
+#include "undine/app/run_control.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/app/run_output.hpp"
 #include "undine/core/error.hpp"
@@ -76,7 +77,7 @@ class Run {
   }
 
   int run() {
-    const auto start = Clock::now();
+    auto start = Clock::now();  // later by what the run was paused
     if (options_.resume) checkpoint_ = Checkpoints(output_.folder).read_newest();
     if (checkpoint_ && checkpoint_->state.texts.at("case") != hash_)
       throw InputError({.what = "the checkpoint belongs to another case",
@@ -86,6 +87,7 @@ class Run {
     prepare_output_folder(output_.folder, options_.resume      ? FolderMode::resume
                                           : options_.overwrite ? FolderMode::overwrite
                                                                : FolderMode::fresh);
+    control_.begin(output_.folder, options_.control);
     describe();
     make_flow();
     print_plan();
@@ -118,6 +120,7 @@ class Run {
     try {
       while (true) {
         write_due(before, energies, steps, series, step);
+        control_.obey(interrupted, start, [&] { progress(start, step, true); });
         const bool last = flow_->time() >= setup_.choice.end * (1 - 1e-12) || interrupted;
         if (last || (due(output_.checkpoints, before, flow_->time()) && flow_->time() > 0)) write_checkpoint(energies);
         if (last) break;
@@ -261,7 +264,9 @@ class Run {
                         {"dt", step.dt},
                         {"limiter", step.limiter},
                         {"rate", rate(start)},
-                        {"remaining_s", remaining(start)}});
+                        {"remaining_s", remaining(start)},
+                        {"control", control_.enabled()},
+                        {"paused", control_.paused()}});
   }
 
   /// Says how far the run is: to whoever follows it, once a second, and to its user.
@@ -279,9 +284,9 @@ class Run {
       fmt::print("{}\n", progress_line(start, step));
     } else {
       fmt::print(
-          "{}  t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
-          terminal ? "\r" : "", flow_->time(), setup_.choice.end, step_, step.dt, step.limiter, rate(start) * 1e-6,
-          remaining(start), terminal && !last ? "" : "\n");
+          "{}  {}t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
+          terminal ? "\r" : "", control_.paused() ? "paused at " : "", flow_->time(), setup_.choice.end, step_, step.dt,
+          step.limiter, rate(start) * 1e-6, remaining(start), terminal && !last ? "" : "\n");
     }
     std::fflush(stdout);
   }
@@ -372,6 +377,7 @@ class Run {
   std::int64_t step_ = 0;
   double particle_updates_ = 0, seconds_output_ = 0, first_step_ = 0, progress_start_ = 0;
   Clock::time_point last_progress_ = Clock::now(), last_file_ = {};
+  RunControl control_;
 };
 
 /// Loads the case and calls f(run) for a run of its dimensions.
