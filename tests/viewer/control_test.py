@@ -21,9 +21,13 @@ UNDINE, RUNS = sys.argv[1:3] if len(sys.argv) > 2 else (None, None)
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def read_json(path):
+def read_text(path):
     with open(path, encoding="utf-8") as file:
-        return json.load(file)
+        return file.read()
+
+
+def read_json(path):
+    return json.loads(read_text(path))
 
 
 class Live:
@@ -64,8 +68,7 @@ class Live:
         """Hash of the last checkpoint, and the tables."""
         last = sorted(name for name in os.listdir(self.folder) if name.endswith(".checkpoint"))[-1]
         hashed = subprocess.run([UNDINE, "checksum", os.path.join(self.folder, last)], capture_output=True, text=True, check=True).stdout
-        tables = [open(os.path.join(self.folder, name), encoding="utf-8").read() for name in ("energies.csv", "steps.csv")]
-        return hashed.split()[0], *tables
+        return hashed.split()[0], *(read_text(os.path.join(self.folder, name)) for name in ("energies.csv", "steps.csv"))
 
 
 class Control(unittest.TestCase):
@@ -73,12 +76,12 @@ class Control(unittest.TestCase):
         self.runs, self.servers = [], []
 
     def tearDown(self):
-        for server in self.servers:
-            server.stop()
         for run in self.runs:
             if run.process.poll() is None:
                 run.process.kill()
                 run.process.wait()
+        for server in self.servers:
+            server.stop()
 
     def start(self, *words, **more):
         self.runs.append(Live(*words, **more))

@@ -3,7 +3,6 @@
 import http.client
 import json
 import re
-import signal
 import socket
 import subprocess
 from urllib.parse import urlsplit
@@ -14,13 +13,16 @@ class Server:
 
     def __init__(self, undine, folder, *words):
         self.process = subprocess.Popen([undine, "view", folder, *words], stdout=subprocess.PIPE, text=True)
-        said = self.process.stdout.readline()
-        self.url = re.search(r"http://\S+/", said).group()
+        found = None
+        for line in self.process.stdout:
+            if found := re.search(r"http://\S+/", line):
+                break
+        self.url = found.group()
         place = urlsplit(self.url)
         self.port, self.path = place.port, place.path
 
     def stop(self):
-        self.process.send_signal(signal.SIGINT)
+        self.process.terminate()
         self.process.wait(timeout=20)
         self.process.stdout.close()
 
