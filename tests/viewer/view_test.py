@@ -224,7 +224,7 @@ class Browser(unittest.TestCase):
             plan = os.path.join(out, "view_plan.json")
             with open(plan, "w", encoding="utf-8") as file:
                 json.dump({"finished": servers[0].url, "running": servers[1].url, "large": servers[2].url, "many": many, "last": at, "id": int(want["id"][row])}, file)
-            done = subprocess.run(["node", os.path.join(HERE, "view_test.mjs"), CHROMIUM, plan, out], capture_output=True, text=True, timeout=200, check=False)
+            done = subprocess.run(["node", os.path.join(HERE, "view_test.mjs"), CHROMIUM, plan, out], capture_output=True, text=True, timeout=800, check=False)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertEqual(running.wait(timeout=60), 130)
             with open(os.path.join(out, "view_readings.json"), encoding="utf-8") as file:
