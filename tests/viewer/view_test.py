@@ -141,6 +141,11 @@ class Serving(unittest.TestCase):
         self.alive()
         self.assertLess(self.server.largest_memory() - before, 10, "nothing keeps 50 MB headers")
 
+    def test_packed_numbers_are_not_packed_again(self):
+        for name in ("", "data.json", "frame.json?number=0"):
+            status, _, response = self.server.get(self.server.path + name, headers={"Accept-Encoding": "gzip, deflate, br, zstd"})
+            self.assertEqual((status, response.headers["Content-Encoding"]), (200, None), name)
+
     def test_what_follows_a_request_is_no_request(self):
         head = f"Host: 127.0.0.1:{self.server.port}\r\n"
         inner = f"GET {self.server.path}state.json HTTP/1.1\r\n{head}\r\n"
