@@ -58,6 +58,8 @@ int execute(int argc, char** argv) {
   add_case_options(*run, run_options);
   run->add_flag("--resume", run_options.resume, "go on from the newest checkpoint of the output folder");
   run->add_flag("--overwrite", run_options.overwrite, "replace an earlier run in the output folder");
+  run->add_flag("--control", run_options.control,
+                "let `undine view` pause and stop it, and whoever writes DIR/control");
   run->add_flag("!--no-report", run_options.report, "write no report.html at the end");
   run->add_flag("--quiet", quiet, "print errors only");
   run->add_flag("--json", json, "progress as one JSON object per line");

@@ -14,6 +14,7 @@
 #include "undine/app/gauges.hpp"
 #include "undine/app/gauges/context.hpp"
 #include "undine/app/report/report.hpp"
+#include "undine/app/run_control.hpp"
 #include "undine/app/run_output.hpp"
 #include "undine/app/run_talk.hpp"
 #include "undine/app/watchdog/post_mortem.hpp"
@@ -77,6 +78,8 @@ class Run {
     prepare_output_folder(output_.folder, options_.resume      ? FolderMode::resume
                                           : options_.overwrite ? FolderMode::overwrite
                                                                : FolderMode::fresh);
+    control_.begin(output_.folder, options_.control);
+    pace_.listens = control_.enabled();
     if (unbegun) talk_.warn("the earlier run ended before its first checkpoint; this one starts from the beginning");
     if (found) say_refused(*found);
     talk_.describe();
@@ -117,6 +120,10 @@ class Run {
   void advance() {
     step_ = next_step(*flow_, setup_.choice);
     while (true) {
+      control_.obey(interrupted, pace_.start, [&] {
+        pace_.paused = control_.paused();
+        talk_.progress(*flow_, pace_, step_, true);
+      });
       const bool last = flow_->time() >= setup_.choice.end * (1 - 1e-12) || interrupted;
       const bool first = before_ < 0;
       const bool keeps_state = last || first || clock_.due(before_, flow_->time());
@@ -267,6 +274,7 @@ class Run {
   std::optional<StepSeries> steps_;
   std::optional<SeriesFile> series_;
   Pace pace_;
+  RunControl control_;
   Step step_{};
   Moment moment_ = Moment::chosen_step;
   double before_ = -1;  ///< s, the time of the step before; < 0: there was none

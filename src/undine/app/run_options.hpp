@@ -15,7 +15,8 @@ struct RunOptions {
   int threads = 0;                ///< 0: as many as there are cores
   bool resume = false;
   bool overwrite = false;
-  bool report = true;  ///< whether a page that shows the run is written at its end, if the case wants one
+  bool control = false;  ///< whether others may pause and stop it
+  bool report = true;    ///< whether a page that shows the run is written at its end, if the case wants one
   Verbosity verbosity = Verbosity::normal;
 };
 

@@ -18,6 +18,7 @@ struct Pace {
   double particle_updates = 0;
   double seconds_output = 0;
   double seconds_watch = 0;
+  bool listens = false, paused = false;  ///< to whoever may pause and stop the run
 
   double seconds() const { return seconds_since(start); }
   /// Particle updates per second.

@@ -79,7 +79,9 @@ std::string RunTalk<N>::progress_line(const Flow<N>& flow, const Pace& pace, con
                       {"dt", step.dt},
                       {"limiter", step.limiter},
                       {"rate", pace.rate()},
-                      {"remaining_s", pace.remaining(flow.time())}});
+                      {"remaining_s", pace.remaining(flow.time())},
+                      {"control", pace.listens},
+                      {"paused", pace.paused}});
 }
 
 template <int N>
@@ -97,9 +99,9 @@ void RunTalk<N>::progress(const Flow<N>& flow, const Pace& pace, const Step& ste
     fmt::print("{}\n", progress_line(flow, pace, step));
   } else {
     fmt::print(
-        "{}  t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
-        terminal ? "\r" : "", flow.time(), pace.end, pace.step, step.dt, step.limiter, pace.rate() * 1e-6,
-        pace.remaining(flow.time()), terminal && !last ? "" : "\n");
+        "{}  {}t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
+        terminal ? "\r" : "", pace.paused ? "paused at " : "", flow.time(), pace.end, pace.step, step.dt, step.limiter,
+        pace.rate() * 1e-6, pace.remaining(flow.time()), terminal && !last ? "" : "\n");
   }
   std::fflush(stdout);
 }
