@@ -21,6 +21,7 @@
 #include "undine/schemes/presets.hpp"
 #include "undine/search/search.hpp"
 #include "undine/terms/catalogue.hpp"
+#include "undine/terms/velocity/shifting.hpp"
 #include "undine/walls/catalogue.hpp"
 
 namespace undine {
@@ -148,6 +149,7 @@ std::vector<Axis> make_axes() {
       axis_of<terms::ArtificialViscosities>("artificial_viscosity", "Artificial viscosities"),
       axis_of<terms::DiffusionForms>("density_diffusion", "Density diffusion"),
       axis_of<terms::VelocityCorrections>("velocity_correction", "Corrections of the velocity that moves particles"),
+      axis_of<terms::Shiftings>("shifting", "How particles are shifted towards even spacing"),
       axis_of<terms::Sums>("sums", "Sums that densities are made of"),
       axis_of<terms::Measures>("measures", "What a run measures with: gradients, and the approach speed for the step"),
       axis_of<materials::EquationsOfState>("equations_of_state", "Equations of state"),

@@ -21,6 +21,7 @@
 #include "undine/io/output_folder.hpp"
 #include "undine/io/run_record.hpp"
 #include "undine/schemes/presets.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
 
 namespace undine {
 namespace {
