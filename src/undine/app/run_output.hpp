@@ -62,7 +62,8 @@ class EnergySeries {
 };
 
 /// What may limit a step, in the order of the numbers in steps.csv.
-inline constexpr std::array<std::string_view, 5> step_limiters{"fixed", "courant", "force", "viscous", "largest"};
+inline constexpr std::array<std::string_view, 6> step_limiters{"fixed",   "courant", "force",
+                                                               "viscous", "largest", "tolerance"};
 
 /// The steps of a run as a series, steps.csv: their size, what limited it, and how many particles there were.
 class StepSeries {

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "undine/core/error.hpp"
+#include "undine/schemes/flow_stages_impl.hpp"
+#include "undine/schemes/particle_rules.hpp"
 
 namespace undine {
 
@@ -27,6 +29,27 @@ void Flow<N>::start(const std::vector<double>& memory) {
   } else {
     recall(memory);
   }
+}
+
+template <int N>
+void Flow<N>::add_summation_stages(DensityForm form, bool walls) {
+  summation_.template use<0>().sources = shepard_.template use<0>().sources = {true, walls};
+  if (form == DensityForm::summation) {
+    add_sweep(summation_, walls);
+    add_update("summed density", Group::fluid, rules::TakeSummedDensity{});
+  }
+  if (form != DensityForm::normalised) return;
+  // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
+  const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
+  Resources reads(Group::fluid, Fields<m, rho>::set() | place());
+  if (walls) reads.add(Group::wall, Fields<m>::set() | place());
+  // Ghosts too have the density of before, and take the new one afterwards.
+  if (walls && !ghosts_) reads.add(Group::wall, Fields<rho>::set());
+  plan_.add({"normalised density", reads, touched, [this] {
+               run(summation_);
+               run(shepard_);
+               update(store_, Group::fluid, rules::TakeNormalisedDensity{});
+             }});
 }
 
 template <int N>
@@ -117,11 +140,13 @@ void Flow<N>::check_support() const {
                                support_now_, time_, domain_.length(k)),
            .why = "a particle would see another one and its image",
            .fix = "widen the domain, or take a constant H (scheme.smoothing.law)"});
-  if (ghosts_ && support_now_ > common_->support.uniform * (1 + 1e-9))
-    throw RunError({.what = fmt::format("H has grown to {:.4g} m at t = {:.6g} s, from {:.4g} m", support_now_, time_,
-                                        common_->support.uniform),
-                    .why = "walls with ghosts were checked for gaps and thickness with the H of the start",
-                    .fix = "take a constant H (scheme.smoothing.law), or other walls"});
+  const double mirrored = std::max(common_->mirrored_support, common_->support.uniform);
+  if (ghosts_ && support_now_ > mirrored * (1 + 1e-9))
+    throw RunError(
+        {.what = fmt::format("H has grown to {:.4g} m at t = {:.6g} s, from {:.4g} m", support_now_, time_,
+                             common_->support.uniform),
+         .why = fmt::format("walls with ghosts were checked for gaps and thickness with H up to {:.4g} m", mirrored),
+         .fix = "take a constant H (scheme.smoothing.law), or other walls"});
 }
 
 /// A fluid particle that left the domain ends the run, or leaves it with its energy.
@@ -240,25 +265,29 @@ void Flow<N>::smooth() {
 }
 
 template <int N>
-std::vector<typename Flow<N>::Kept> Flow<N>::kept_of_a_step() const {
-  return {{x::id, x_start::id}, {v::id, v_start::id}, {rho::id, rho_start::id}};
-}
-
-template <int N>
 void Flow<N>::save() {
-  for (const auto& [field, start] : kept_of_a_step()) {
-    store_.allocate(FieldSet{}.set(start));
-    std::ranges::copy(store_.raw(field), store_.raw(start).begin());
-  }
+  store_.allocate(Fields<x_start, v_start, rho_start>::set());
+  std::ranges::copy(store_.template get<x>(), store_.template get<x_start>().begin());
+  std::ranges::copy(store_.template get<v>(), store_.template get<v_start>().begin());
+  std::ranges::copy(store_.template get<rho>(), store_.template get<rho_start>().begin());
   time_start_ = time_;
   ledger_start_ = ledger_;
 }
 
 template <int N>
 void Flow<N>::restore() {
-  for (const auto& [field, start] : kept_of_a_step()) std::ranges::copy(store_.raw(start), store_.raw(field).begin());
+  std::ranges::copy(store_.template get<x_start>(), store_.template get<x>().begin());
+  std::ranges::copy(store_.template get<v_start>(), store_.template get<v>().begin());
+  std::ranges::copy(store_.template get<rho_start>(), store_.template get<rho>().begin());
   time_ = time_start_;
   ledger_ = ledger_start_;
+}
+
+template <int N>
+std::vector<typename Flow<N>::Evolved> Flow<N>::evolved() const {
+  std::vector<int> moves{v::id};
+  if (!drift_correction().empty()) moves.push_back(v_xsph::id);
+  return {{Group::fluid, x::id, moves}, {Group::fluid, v::id, {acc::id}}};
 }
 
 template <int N>
@@ -269,7 +298,7 @@ std::vector<double*> Flow<N>::accounts() {
 
 template <int N>
 std::vector<double> Flow<N>::memory() const {
-  std::vector<double> numbers{time_, neighbours_.support()};
+  std::vector<double> numbers{time_, neighbours_.support(), control_.proposed, control_.error_before};
   for (const double* number : const_cast<Flow&>(*this).remembered()) numbers.push_back(*number);
   numbers.push_back(static_cast<double>(escaped_));
   return numbers;
@@ -277,9 +306,16 @@ std::vector<double> Flow<N>::memory() const {
 
 template <int N>
 void Flow<N>::recall(const std::vector<double>& numbers) {
+  const std::size_t expected = remembered().size() + 5;
+  if (numbers.size() != expected)
+    throw InputError({.what = "the checkpoint is of another version of this program",
+                      .why = fmt::format("it remembers {} numbers, this scheme {}", numbers.size(), expected),
+                      .fix = "start again without --resume"});
   auto next = numbers.begin();
   time_ = *next++;
   neighbours_.rebuild_from_list_positions(store_, *next++);
+  control_.proposed = *next++;
+  control_.error_before = *next++;
   if (ghosts_) ghosts_->find_parents(store_);
   for (double* number : remembered()) *number = *next++;
   step_end_ = time_;

@@ -9,6 +9,8 @@
 #include "undine/engine/pair_sweep.hpp"
 #include "undine/engine/plan.hpp"
 #include "undine/engine/update.hpp"
+#include "undine/integrators/step_control.hpp"
+#include "undine/schemes/by_id.hpp"
 #include "undine/schemes/energies.hpp"
 #include "undine/schemes/flow_options.hpp"
 #include "undine/schemes/ghosts.hpp"
@@ -33,10 +35,19 @@ class Flow {
   virtual void predict_kick(double dt);
   virtual void correct_kick(double dt);
   virtual void smooth();
-  void save();
-  void restore();
+  virtual void save();
+  virtual void restore();
   void evaluate();
   virtual void book(double dt) = 0;
+
+  // Moves of Runge-Kutta integrators (integrators/runge_kutta.hpp lists them).
+  void start_stages(int slopes);
+  void take_slope(int k);
+  void stage(std::span<const double> weights);
+  void finish(std::span<const double> weights);
+  double stage_error(std::span<const double> weights) const;
+  void reject();
+  integrators::StepControl& step_control() { return control_; }
 
   /// The largest step that the limits allow for the rates at hand, and which limit it was.
   virtual Step stable_step(const StepLimits& limits) const = 0;
@@ -70,9 +81,17 @@ class Flow {
   const Vec<N>& potential_origin() const { return potential_origin_; }
 
  protected:
-  /// A state field and where `save` keeps its value of the step's start.
-  struct Kept {
-    int field, start;
+  /// A field that is integrated in time and the fields whose sum is its rate; and what a Runge-Kutta step keeps of
+  /// both.
+  struct Evolved {
+    // Without it g++ 12 breaks down over the initialisers of the last two members.
+    Evolved(Group of, int what, std::vector<int> by) : group(of), field(what), rates(std::move(by)) {}
+
+    Group group;
+    int field;
+    std::vector<int> rates;
+    ById<N> start;
+    std::vector<std::vector<ById<N>>> slopes;  ///< by stage, then by rate
   };
 
   Flow(Store<N> store, const Domain<N>& domain, std::shared_ptr<const FlowOptions<N>> options);
@@ -84,7 +103,10 @@ class Flow {
   virtual void prepare() {}
   /// Added to the velocity that moves particles, m/s; empty: nothing.
   virtual std::span<const Vec<N>> drift_correction() const { return {}; }
-  virtual std::vector<Kept> kept_of_a_step() const;
+  /// What is integrated in time; position first.
+  virtual std::vector<Evolved> evolved() const;
+  /// Keeps the state within bounds after a stage.
+  virtual void limit_state() {}
   /// Numbers that rates left behind and `book` needs, and accounts: what a checkpoint keeps besides time and lists.
   virtual std::vector<double*> remembered() = 0;
   std::vector<double*> accounts();
@@ -104,6 +126,8 @@ class Flow {
     plan_.add({std::move(name), Resources(group, Update::reads::set()), Resources(group, Update::writes::set()),
                [this, group, rule] { update(store_, group, rule); }});
   }
+  /// The density as a sum, where it is one; `walls` take part in it.
+  void add_summation_stages(DensityForm form, bool walls);
   /// Gravity, imposed forces and, where walls push, `acc_wall`, all added to the acceleration.
   void add_body_force_stage(bool walls_push);
   struct PlanFields {
@@ -126,6 +150,8 @@ class Flow {
   FieldSet place() const {
     return common_->supports_vary() ? Fields<field::x, field::h>::set() : Fields<field::x>::set();
   }
+  /// The end of the last step, s.
+  double step_end() const { return step_end_; }
   Vec<N> gravity_of_ghosts() const { return common_->ghost_hydrostatic ? common_->gravity : Vec<N>{}; }
 
   Store<N> store_;
@@ -150,14 +176,21 @@ class Flow {
   void move_walls();
   void push_from_walls(double dt);
   double largest_support() const;
+  Vec<N> change(const Evolved& state, std::size_t r, std::int64_t id, std::span<const double> weights) const;
+  /// The state of a stage; what XSPH did against gravity on the way, J.
+  double take_stage(std::span<const double> weights);
   void recall(const std::vector<double>& numbers);
 
   std::shared_ptr<const FlowOptions<N>> common_;
+  PairSweep<N, Use<terms::Summation>> summation_{"summation", Group::fluid};
+  PairSweep<N, Use<terms::ShepardSum>> shepard_{"shepard sum", Group::fluid};
   std::vector<SweepNote> sweeps_;
   double support_now_ = 0;
   double time_start_ = 0;
   double step_end_ = 0;  ///< when the last step ended, s
   Energies::Ledger ledger_start_;
+  std::vector<Evolved> stages_;
+  integrators::StepControl control_;
   long list_builds_ = 0, escaped_ = 0;
   double seconds_lists_ = 0, seconds_sweeps_ = 0;
 };

@@ -32,8 +32,18 @@ using BodyForce = std::function<Vec<N>(const Vec<N>& x, double t)>;
 
 /// How the support radius H of a particle goes on from the start.
 enum class SmoothingLaw {
-  constant,  ///< one H for all
-  density    ///< H = H_0 (rho_0/rho)^(1/N), Niedoba (2012), eq. 2.67
+  constant,       ///< as at the start
+  density,        ///< H = H_0 (rho_0/rho)^(1/N), Niedoba (2012), eq. 2.67
+  continuity,     ///< dH/dt = -H/(N rho) drho/dt, Niedoba (2012), eq. 2.68
+  number_density  ///< rho H^N = m q^N, solved together with the density that is summed with H
+};
+
+/// Where the density of fluid particles comes from.
+enum class DensityForm {
+  evolved,     ///< integrated from a continuity form
+  summation,   ///< summed over the neighbours
+  normalised,  ///< summed, divided by the Shepard sum over the same neighbours
+  grad_h       ///< summed with each particle's own H, which follows it
 };
 
 /// The choices of a run that every scheme has, as data.
@@ -42,7 +52,8 @@ struct FlowOptions {
   std::array<KernelChoice, kernel_roles> kernels;
   Support support;  ///< `uniform` is the largest H at the start
   SmoothingLaw smoothing = SmoothingLaw::constant;
-  bool supports_vary() const { return smoothing != SmoothingLaw::constant; }
+  bool own_supports = false;  ///< whether particles have an H of their own even where it is constant
+  bool supports_vary() const { return own_supports || smoothing != SmoothingLaw::constant; }
 
   walls::WallDensity wall_density = walls::WallDensity::none;
   bool wall_pulls =
@@ -54,6 +65,7 @@ struct FlowOptions {
       pushed_out;  ///< where walls want a particle at x to be; empty: they do not push
   std::shared_ptr<const walls::Mirrors<N>> mirrors;  ///< of ghosts: needed by `copied` wall density, and only there
   bool ghost_hydrostatic = true;                     ///< p_g = p + rho g.(x_g - x), instead of p_g = p
+  double mirrored_support = 0;                       ///< the largest H that the mirrors serve, m
 
   std::vector<materials::Material> materials;
   Vec<N> gravity{};

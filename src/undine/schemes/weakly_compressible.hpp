@@ -48,10 +48,11 @@ class WeaklyCompressible : public Flow<N> {
   void prepare() override;
   std::span<const Vec<N>> drift_correction() const override;
   std::vector<double*> remembered() override;
+  std::vector<typename Flow<N>::Evolved> evolved() const override;
+  void limit_state() override;
   void configure();
   void configure_consistent();
   void make_plan();
-  void add_density_stages();
   void add_wall_stages();
   void add_inertia_stage();
   void add_mirror_stage();
@@ -81,8 +82,6 @@ class WeaklyCompressible : public Flow<N> {
   typename Sweeps::Force force_{"force", Group::fluid, Booking::on};
   typename Sweeps::Continuity continuity_{"continuity", Group::fluid};
   typename Sweeps::Continuity wall_continuity_{"wall continuity", Group::wall};
-  typename Sweeps::Summation summation_{"summation", Group::fluid};
-  typename Sweeps::Shepard shepard_{"shepard sum", Group::fluid};
   typename Sweeps::Summation wall_summation_{"wall summation", Group::wall};
   typename Sweeps::WallPressure wall_pressure_{"wall pressure", Group::wall};
   typename Sweeps::WallAnswer wall_answer_{"wall answer sums", Group::wall};

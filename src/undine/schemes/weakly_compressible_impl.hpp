@@ -54,8 +54,6 @@ void WeaklyCompressible<N>::configure() {
   force_.take_from({true, walls});  // wall particles that only repel are none of its neighbours
   continuity_.template use<0>() = {continuity, true, {true, walls}, {}};
   wall_continuity_.template use<0>() = {continuity, true, {true, false}, {}};
-  summation_.template use<0>() = {{}, true, {true, walls}, {}};
-  shepard_.template use<0>() = {{}, true, {true, walls}, {}};
   wall_summation_.template use<0>() = {{}, true, {true, false}, {}};
   wall_pressure_.template use<0>() = {{}, true, {true, false}, {}};
   gradient_.template use<0>() = {{}, true, {true, false}, {}};
@@ -89,7 +87,7 @@ template <int N>
 void WeaklyCompressible<N>::make_plan() {
   const bool walls = options_.wall_density != WallDensity::none;
 
-  add_density_stages();
+  this->add_summation_stages(options_.density, walls);
   this->add_update("equation of state", Group::fluid, rules::ApplyEquationOfState{options_.materials});
   if (walls) add_wall_stages();
   if (options_.consistent()) {
@@ -118,27 +116,6 @@ void WeaklyCompressible<N>::make_plan() {
                                 .add(Group::wall, Fields<grad_rho_l, p, c, moment, v_xsph>::set());
   this->finish_plan({given_fields, Fields<p, c, acc, drho, mu_cfl>::set(),
                      Fields<acc_old, x_start, v_start, rho_start>::set(), at_rest});
-}
-
-template <int N>
-void WeaklyCompressible<N>::add_density_stages() {
-  if (options_.density == DensityForm::evolved) return;
-  if (options_.density == DensityForm::summation) {
-    this->add_sweep(summation_, options_.wall_density != WallDensity::none);
-    this->add_update("summed density", Group::fluid, rules::TakeSummedDensity{});
-    return;
-  }
-  // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
-  const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
-  Resources reads(Group::fluid, Fields<m, rho>::set() | this->place());
-  if (options_.wall_density != WallDensity::none) reads.add(Group::wall, Fields<m>::set() | this->place());
-  // Ghosts too have the density of before, and take the new one afterwards.
-  if (options_.wall_density != WallDensity::none && !ghosts_) reads.add(Group::wall, Fields<rho>::set());
-  plan_.add({"normalised density", reads, touched, [this] {
-               this->run(summation_);
-               this->run(shepard_);
-               update(store_, Group::fluid, rules::TakeNormalisedDensity{});
-             }});
 }
 
 /// Dissipation by the velocity gradient L: 2 mu D:D per volume, D = (L + L^T)/2. Saalfeld (2012), eq. 51-54 (with the
@@ -178,15 +155,38 @@ void WeaklyCompressible<N>::compress(double dt) {
   auto density = store_.template get<rho>();
   const auto rate = store_.template get<drho>();
   const auto diffused = store_.template get<drho_diff>();
-  if (options_.density == DensityForm::evolved)
+  if (options_.density == DensityForm::evolved) {
+    std::vector<double> smallest;
+    for (const auto& substance : options_.materials) smallest.push_back(substance.smallest_density());
+    const auto material = store_.materials();
     for_each_particle(store_, Group::fluid, [&, diffuses = diffuses() || options_.shifting](std::size_t i) {
       density[i] += dt * (diffuses ? rate[i] + diffused[i] : rate[i]);
+      density[i] = std::max(density[i], smallest[material[i]]);
     });
+  }
   if (options_.wall_density == WallDensity::evolved)
     for_each_particle(store_, Group::wall, [&](std::size_t i) {
       density[i] += dt * rate[i];
       if (!options_.wall_pulls) density[i] = std::max(density[i], store_.template get<rho_0>()[i]);
     });
+}
+
+template <int N>
+std::vector<typename Flow<N>::Evolved> WeaklyCompressible<N>::evolved() const {
+  auto all = Flow<N>::evolved();
+  std::vector<int> rates{drho::id};
+  if (diffuses() || options_.shifting) rates.push_back(drho_diff::id);
+  if (options_.density == DensityForm::evolved) all.push_back({Group::fluid, rho::id, rates});
+  if (options_.wall_density == WallDensity::evolved) all.push_back({Group::wall, rho::id, {drho::id}});
+  return all;
+}
+
+template <int N>
+void WeaklyCompressible<N>::limit_state() {
+  if (options_.wall_density != WallDensity::evolved || options_.wall_pulls) return;
+  auto density = store_.template get<rho>();
+  const auto rest = store_.template get<rho_0>();
+  for_each_particle(store_, Group::wall, [&](std::size_t i) { density[i] = std::max(density[i], rest[i]); });
 }
 
 template <int N>

@@ -6,13 +6,6 @@
 
 namespace undine {
 
-/// Where the density of fluid particles comes from.
-enum class DensityForm {
-  evolved,    ///< integrated from a continuity form
-  summation,  ///< summed over the neighbours
-  normalised  ///< summed, divided by the Shepard sum over the same neighbours
-};
-
 /// What XSPH corrects: the velocity that moves particles (Saalfeld 2012, eq. 50), or the velocity itself (his table 2).
 enum class XsphTarget { position, velocity };
 
