@@ -15,7 +15,7 @@ constexpr auto with_gradient(const auto& ab, const auto& gradient) {
 }
 
 template <int N, class A, class B>
-constexpr auto times(const Vec<N, Vec<N, A>>& matrix, const Vec<N, B>& vector) {
+constexpr auto product(const Vec<N, Vec<N, A>>& matrix, const Vec<N, B>& vector) {
   Vec<N, decltype(matrix[0][0] * vector[0])> product;
   for (int k = 0; k < N; ++k) product[k] = dot(matrix[k], vector);
   return product;
@@ -35,7 +35,7 @@ struct Corrected {
   FieldSet chosen_reads() const { return form.chosen_reads() | Fields<moment>::set(); }
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    return form(a, b, with_gradient(ab, times(a.moment, ab.grad_w)));
+    return form(a, b, with_gradient(ab, product(a.moment, ab.grad_w)));
   }
 };
 
@@ -54,7 +54,7 @@ struct MeanCorrected {
   FieldSet chosen_reads() const { return form.chosen_reads() | Fields<moment>::set(); }
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    return form(a, b, with_gradient(ab, 0.5 * (times(a.moment, ab.grad_w) + times(b.moment, ab.grad_w))));
+    return form(a, b, with_gradient(ab, 0.5 * (product(a.moment, ab.grad_w) + product(b.moment, ab.grad_w))));
   }
 };
 

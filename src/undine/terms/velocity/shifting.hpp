@@ -9,16 +9,16 @@ namespace undine::terms {
 using namespace field;
 
 /// Particles move down the gradient of their own concentration, which keeps them evenly spread: a diffusion of places,
-/// not of what they carry. With C = 0.25 it is half the transport velocity of Adami, Hu & Adams (2013), eq. 8 and 13,
-/// with p_b = rho c^2 and dt = h/(4 c), and does not depend on the step.
+/// not of what they carry. The transport velocity of Adami, Hu & Adams (2013), dt p_b/rho 2 sum_b V_b grad_a W_ab, is
+/// C = 1/6 with their p_b = rho c^2, dt = h/(4 c) and H = 3 h; this one does not depend on the step.
 struct ShiftingFickian {
   static constexpr Info info{"fickian", "Particles drift from where they are dense to where they are sparse",
                              "dx_a/dt = v_a + s_a, s_a = - C c_a H sum_b (m_b/rho_b) grad_a W_ab",
-                             "Lind et al. (2012), eq. 20; Adami, Hu & Adams (2013), eq. 8"};
+                             "Lind et al. (2012); Adami, Hu & Adams (2013)"};
   using reads = Fields<m, rho, c>;
   using adds = Fields<v_xsph>;
 
-  double C = 0.25;
+  double C = 0.5;
   static constexpr auto parameters() {
     return std::array{Parameter<ShiftingFickian>{"strength", &ShiftingFickian::C, "1", "C", 0, 1}};
   }
@@ -36,7 +36,7 @@ struct ShiftedTransport {
   static constexpr Info info{
       "shifted_transport", "Velocity and density change as a shifted particle comes to others",
       "dv_a/dt = s_a.grad v, drho_a/dt = s_a.grad rho; grad f = sum_b V_b (f_b - f_a) grad_a W_ab",
-      "Adami, Hu & Adams (2013), eq. 4-6; Sun et al. (2019), eq. 6, with differences"};
+      "Adami, Hu & Adams (2013); Sun et al. (2019); by differences here"};
   using reads = Fields<m, rho, v_friction, v_xsph>;
   using adds = Fields<acc, drho_diff>;
 
