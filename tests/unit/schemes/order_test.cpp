@@ -69,7 +69,7 @@ const char* name_of(DensityForm density) { return density == DensityForm::evolve
 TEST(Order, IsWhatTheIntegratorsClaim) {
   const test::Threads one(1);
   for (const auto density : forms) {
-    const auto exact = state_after<integrators::Leapfrog>(density, 8192);
+    const auto exact = state_after<integrators::Leapfrog>(density, test::fewer(8192, 4));
     integrators::Integrators::for_each([&]<class Integrator>(Integrator) {
       constexpr bool first_order = std::is_same_v<Integrator, integrators::Euler>;
       const double coarse = distance(state_after<Integrator>(density, 128), exact);
