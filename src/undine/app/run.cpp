@@ -41,32 +41,30 @@ class Run {
         setup_(read_case<N>(document.root())),
         output_(read_output(document.root(), options, setup_.choice.end)),
         gauges_(document.root(), gauge_context(setup_, output_)) {
-    for (const int f : output_.fields) setup_.options.kept.set(static_cast<std::size_t>(f));
+    for (const int f : output_.fields) setup_.options().kept.set(static_cast<std::size_t>(f));
     document.finish();
     hash_ = case_hash(document);
   }
 
   void describe() const {
     if (options_.verbosity != Verbosity::normal) return;
-    const auto& o = setup_.options;
+    const auto& o = setup_.options();
     const auto& store = setup_.store;
     const auto preset = presets::Presets::info(setup_.choice.preset).name;
     fmt::print("{}\n", setup_.title.empty() ? options_.file.string() : setup_.title);
     fmt::print("  particles   {} fluid, {} wall, spacing {:.4g} m, support {:.4g} m ({:.3g} spacings)\n",
                store.range(Group::fluid).size(), store.range(Group::wall).size(), setup_.spacing, o.support.uniform,
                o.support.uniform / setup_.spacing);
-    fmt::print("  scheme      {}: kernel {}, pressure {}, {}{}{}{}{}\n", preset, o.kernels[0].info().name,
-               o.pressure.info().name,
-               o.density == DensityForm::evolved ? std::string(o.continuity.info().name) : "summation",
-               o.viscosity ? fmt::format(", viscosity {}", o.viscosity->info().name) : "",
-               o.artificial ? fmt::format(", artificial viscosity {}", o.artificial->info().name) : "",
-               o.diffusion ? fmt::format(", diffusion {}", o.diffusion->info().name) : "", o.xsph ? ", XSPH" : "");
+    fmt::print("  scheme      {}: kernel {}, {}\n", preset, o.kernels[0].info().name, describe_terms<N>(setup_.scheme));
     fmt::print("  backend     {} x {}, pairs in {}, search {}\n", backend_names[static_cast<int>(o.backend.kind)],
                omp_get_max_threads(), precision_names[static_cast<int>(o.backend.precision)], o.neighbours.search);
-    for (const auto& material : o.materials)
-      fmt::print("  material    {}: rho_0 {:.6g} kg/m^3, c_0 {:.4g} m/s ({:.3g} x expected speed), mu {:.3g} Pa s\n",
-                 material.name, material.rho_0, material.sound_speed(material.rho_0),
-                 material.sound_speed(material.rho_0) / setup_.expected_speed, material.mu);
+    for (const auto& material : o.materials) {
+      fmt::print("  material    {}: rho_0 {:.6g} kg/m^3", material.name, material.rho_0);
+      if (!setup_.choice.is_gas)
+        fmt::print(", c_0 {:.4g} m/s ({:.3g} x expected speed)", material.sound_speed(material.rho_0),
+                   material.sound_speed(material.rho_0) / setup_.expected_speed);
+      fmt::print(", mu {:.3g} Pa s\n", material.mu);
+    }
     const auto& limits = setup_.choice.limits;
     fmt::print("  time        to {:.6g} s, {}, {}\n", setup_.choice.end, setup_.choice.integrator,
                limits.fixed > 0 ? fmt::format("fixed step {:.4g} s", limits.fixed)
@@ -87,7 +85,7 @@ class Run {
                                           : options_.overwrite ? FolderMode::overwrite
                                                                : FolderMode::fresh);
     describe();
-    make_flow();
+    start_flow();
     print_plan();
 
     const double resumed_at = checkpoint_ ? flow_->time() : -1;
@@ -122,7 +120,7 @@ class Run {
         if (last || (due(output_.checkpoints, before, flow_->time()) && flow_->time() > 0)) write_checkpoint(energies);
         if (last) break;
         progress(start, step, false);
-        step = flow_->stable_step(setup_.choice.limits);
+        step = next_step();
         check_step(step);
         before = flow_->time();
         integrators::Integrators::visit(integrators::Integrators::index_of(setup_.choice.integrator),
@@ -145,14 +143,12 @@ class Run {
   }
 
  private:
-  void make_flow() {
-    if (!checkpoint_) {
-      flow_ = std::make_unique<WeaklyCompressible<N>>(std::move(setup_.store), setup_.domain, setup_.options);
-    } else {
-      flow_ = std::make_unique<WeaklyCompressible<N>>(store_from(checkpoint_->frame), setup_.domain, setup_.options,
-                                                      checkpoint_->state.lists.at("memory"));
-    }
+  void start_flow() {
+    flow_ = checkpoint_ ? make_flow<N>(store_from(checkpoint_->frame), setup_.domain, setup_.scheme,
+                                       checkpoint_->state.lists.at("memory"))
+                        : make_flow<N>(std::move(setup_.store), setup_.domain, setup_.scheme);
     flow_->set_potential_origin(setup_.potential_origin);
+    flow_->step_control().tolerance = setup_.choice.tolerance;
   }
 
   /// The particles of a checkpoint in their order, every field.
@@ -192,14 +188,15 @@ class Run {
 
   /// Which loops every sweep runs, and why: the choice is one for all of them.
   void print_path() const {
-    const auto& o = setup_.options;
+    const auto& o = setup_.options();
     const auto& backend = o.backend;
     if (backend.kind == BackendKind::threads) {
       const bool best = backend.instructions == best_instructions();
       fmt::print("\n  sweeps      all in packs of {}, {} instructions ({}), H {}\n",
                  backend.precision == PairPrecision::mixed ? "float" : "double",
                  instruction_set_names[static_cast<std::size_t>(backend.instructions)],
-                 best ? "the widest here" : "named by the case", o.rho_law ? "of each pair" : "the same everywhere");
+                 best ? "the widest here" : "named by the case",
+                 o.supports_vary() ? "of each pair" : "the same everywhere");
     } else {
       fmt::print("\n  sweeps      all one pair at a time in double (backend {})\n",
                  backend_names[static_cast<std::size_t>(backend.kind)]);
@@ -235,6 +232,14 @@ class Run {
     data.state.texts["case"] = hash_;
     Checkpoints(output_.folder).write(data);
     seconds_output_ += seconds_since(watch);
+  }
+
+  /// The limits', or shorter where the error of the last step asks for it.
+  Step next_step() const {
+    const Step step = flow_->stable_step(setup_.choice.limits);
+    const auto& control = flow_->step_control();
+    return control.adapts() && control.proposed > 0 && control.proposed < step.dt ? Step{control.proposed, "tolerance"}
+                                                                                  : step;
   }
 
   void check_step(const Step& step) {
@@ -368,7 +373,7 @@ class Run {
   GaugeSet<N> gauges_;
   std::string hash_;
   std::optional<OwnedCheckpoint> checkpoint_;
-  std::unique_ptr<WeaklyCompressible<N>> flow_;
+  std::unique_ptr<Flow<N>> flow_;
   std::int64_t step_ = 0;
   double particle_updates_ = 0, seconds_output_ = 0, first_step_ = 0, progress_start_ = 0;
   Clock::time_point last_progress_ = Clock::now(), last_file_ = {};

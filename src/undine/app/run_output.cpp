@@ -15,7 +15,9 @@ namespace undine {
 namespace {
 
 const std::vector<std::string> energy_comments{
-    "kinetic, potential, elastic: energies of the fluid; the next columns: what each term took out of them since t = 0",
+    "kinetic, potential, elastic: energies of the fluid, elastic the internal energy of a gas; the next columns: what "
+    "each "
+    "term took out of them since t = 0",
     "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching "
     "compression;",
     "walls: given to walls; xsph: moved against gravity by XSPH; body: given to imposed fields",
@@ -94,7 +96,7 @@ bool due(double interval, double before, double now) {
 }
 
 template <int N>
-Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
+Frame frame_of(const Flow<N>& flow, std::int64_t step, const std::vector<int>& fields,
                std::vector<std::int32_t>& groups) {
   const Store<N>& store = flow.store();
   // Ghosts come last in the store, and are of use to nobody but the run itself.
@@ -135,7 +137,7 @@ double EnergySeries<N>::relative_residual(const Energies& e) const {
 }
 
 template <int N>
-void EnergySeries<N>::add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count) {
+void EnergySeries<N>::add(const Flow<N>& flow, const Step& step, std::int64_t count) {
   const Energies e = flow.energies();
   const auto& l = e.ledger;
   const std::array row{flow.time(),
@@ -205,12 +207,9 @@ OwnedCheckpoint Checkpoints::read_newest() const {
                     .fix = "run without --resume, or name the folder of an interrupted run with --out"});
 }
 
-template Frame frame_of<1>(const WeaklyCompressible<1>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
-template Frame frame_of<2>(const WeaklyCompressible<2>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
-template Frame frame_of<3>(const WeaklyCompressible<3>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
+template Frame frame_of<1>(const Flow<1>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<2>(const Flow<2>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<3>(const Flow<3>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
 template class EnergySeries<1>;
 template class EnergySeries<2>;
 template class EnergySeries<3>;

@@ -13,7 +13,7 @@
 #include "undine/io/checkpoint.hpp"
 #include "undine/io/snapshot.hpp"
 #include "undine/io/time_series.hpp"
-#include "undine/schemes/weakly_compressible.hpp"
+#include "undine/schemes/flow.hpp"
 
 namespace undine {
 
@@ -36,7 +36,7 @@ bool due(double interval, double before, double now);
 
 /// The particles as a frame; `group` must live as long as the frame. All fields in use when `fields` is empty.
 template <int N>
-Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
+Frame frame_of(const Flow<N>& flow, std::int64_t step, const std::vector<int>& fields,
                std::vector<std::int32_t>& groups);
 
 /// The columns of energies.csv.
@@ -48,7 +48,7 @@ class EnergySeries {
  public:
   /// Starts the file, or goes on with it after `last_time` (s).
   EnergySeries(const std::filesystem::path& folder, bool resume, double last_time);
-  void add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count);
+  void add(const Flow<N>& flow, const Step& step, std::int64_t count);
   void set_start(double total, double potential);
   double start_total() const { return start_total_; }
   double start_potential() const { return start_potential_; }
@@ -62,7 +62,8 @@ class EnergySeries {
 };
 
 /// What may limit a step, in the order of the numbers in steps.csv.
-inline constexpr std::array<std::string_view, 5> step_limiters{"fixed", "courant", "force", "viscous", "largest"};
+inline constexpr std::array<std::string_view, 6> step_limiters{"fixed",   "courant", "force",
+                                                               "viscous", "largest", "tolerance"};
 
 /// The steps of a run as a series, steps.csv: their size, what limited it, and how many particles there were.
 class StepSeries {

@@ -31,8 +31,19 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSubsetOf;
 
-const std::vector<std::string> term_axes{
-    "density", "pressure", "viscosity", "artificial_viscosity", "density_diffusion", "velocity_correction", "sums"};
+const std::vector<std::string> term_axes{"density",
+                                         "pressure",
+                                         "viscosity",
+                                         "artificial_viscosity",
+                                         "density_diffusion",
+                                         "velocity_correction",
+                                         "sums",
+                                         "gas_density",
+                                         "gas_pressure",
+                                         "energy",
+                                         "gas_viscosity",
+                                         "stress",
+                                         "conductivity"};
 
 std::vector<std::string> names_in(const Axis& axis) {
   std::vector<std::string> names;
