@@ -79,6 +79,7 @@ class Reader {
     plan_walls();
     connect_distance();
     connect_reflector();
+    connect_domain();
     connect_ghosts();
     setup_.walls = walls_;
     return std::move(setup_);
@@ -431,7 +432,9 @@ class Reader {
             fmt::format("a particle would see its own image: twice the support with skin is {:.4g} m", 2 * reach),
             "widen the domain or lessen the support");
     }
-    setup_.options().lets_escape = table.choice("on_escape", {"stop", "remove"}, "stop") == "remove";
+    const std::string on_escape = table.choice("on_escape", {"stop", "remove", "reflect"}, "stop");
+    setup_.options().lets_escape = on_escape == "remove";
+    domain_reflects_ = on_escape == "reflect";
     for (const auto& body : bodies_)
       for (const auto& p : body.points)
         if (!domain.contains(narrow<N>(p)))
@@ -713,6 +716,26 @@ class Reader {
     };
   }
 
+  /// Fluid that would leave the domain comes back as from a wall; at corners along each axis.
+  static Bounce<N> kept_inside(const Domain<N>& domain, Bounce<N> bounce) {
+    for (int k = 0; k < N; ++k) {
+      if (domain.periodic[k] || !std::isfinite(bounce.x[k])) continue;
+      if (bounce.x[k] >= domain.low[k] && bounce.x[k] <= domain.high[k]) continue;
+      const double face = bounce.x[k] < domain.low[k] ? domain.low[k] : domain.high[k];
+      bounce.x[k] = std::clamp(2 * face - bounce.x[k], domain.low[k], domain.high[k]);
+      bounce.v[k] = -bounce.v[k];
+    }
+    return bounce;
+  }
+
+  void connect_domain() {
+    if (!domain_reflects_) return;
+    setup_.options().reflector = [walls = setup_.options().reflector, domain = setup_.domain](
+                                     const Vec<N>& from, const Vec<N>& to, const Vec<N>& v) -> Bounce<N> {
+      return kept_inside(domain, walls ? walls(from, to, v) : Bounce<N>{to, v});
+    };
+  }
+
   void connect_reflector() {
     if (surface_->empty()) return;
     setup_.options().reflector = [surface = surface_](const Vec<N>& from, const Vec<N>& to,
@@ -753,6 +776,7 @@ class Reader {
   std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();  ///< what reflects
   std::shared_ptr<ReflectingSurface> walls_ = std::make_shared<ReflectingSurface>();    ///< every wall
   std::shared_ptr<ReflectingSurface> pushing_ = std::make_shared<ReflectingSurface>();
+  bool domain_reflects_ = false;
   double fastest_wall_ = 0;  ///< m/s, until time.end
   std::size_t fluids_ = 0, walls_read_ = 0;
 };

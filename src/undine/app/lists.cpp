@@ -9,6 +9,7 @@
 
 #include "undine/analysis/exact/catalogue.hpp"
 #include "undine/app/gauges.hpp"
+#include "undine/app/watchdog/causes/catalogue.hpp"
 #include "undine/approximation/catalogue.hpp"
 #include "undine/backend/backend.hpp"
 #include "undine/core/error.hpp"
@@ -21,6 +22,7 @@
 #include "undine/schemes/presets.hpp"
 #include "undine/search/search.hpp"
 #include "undine/terms/catalogue.hpp"
+#include "undine/terms/velocity/shifting.hpp"
 #include "undine/walls/catalogue.hpp"
 
 namespace undine {
@@ -148,6 +150,7 @@ std::vector<Axis> make_axes() {
       axis_of<terms::ArtificialViscosities>("artificial_viscosity", "Artificial viscosities"),
       axis_of<terms::DiffusionForms>("density_diffusion", "Density diffusion"),
       axis_of<terms::VelocityCorrections>("velocity_correction", "Corrections of the velocity that moves particles"),
+      axis_of<terms::Shiftings>("shifting", "How particles are shifted towards even spacing"),
       axis_of<terms::GradHDensities>("gas_density", "Densities of gases that determine the support radius, and by it"),
       axis_of<terms::GasPressureForms>("gas_pressure", "Forms of the pressure force of gases"),
       axis_of<terms::EnergyForms>("energy", "Work of pressure on the internal energy of gases"),
@@ -167,6 +170,7 @@ std::vector<Axis> make_axes() {
       axis_of_words("precisions", "Number types of the pair arithmetic", precision_names, precision_titles),
       axis_of_infos("gauges", "Instruments that record a run", gauge_infos()),
       axis_of<exact::ExactSolutions>("exact", "Exact solutions, for `undine exact` and the gauge `error`"),
+      axis_of<causes::Causes>("causes", "Why runs go bad, in the order in which the watchdog asks"),
       axis_of_infos("fields", "Quantities of a particle", all_fields),
   };
 }

@@ -15,12 +15,20 @@ struct RunOptions {
   int threads = 0;                ///< 0: as many as there are cores
   bool resume = false;
   bool overwrite = false;
-  bool report = true;  ///< whether a page that shows the run is written at its end, if the case wants one
+  bool control = false;  ///< whether others may pause and stop it
+  bool report = true;    ///< whether a page that shows the run is written at its end, if the case wants one
   Verbosity verbosity = Verbosity::normal;
 };
 
 /// Exit codes of the program.
-enum ExitCode : int { exit_ok = 0, exit_internal = 1, exit_input = 2, exit_run = 3, exit_interrupted = 130 };
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_internal = 1,
+  exit_input = 2,
+  exit_run = 3,
+  exit_output = 4,
+  exit_interrupted = 130
+};
 
 /// Reads and checks a case with everything it names; prints what it resolved. Throws InputError.
 int check_case(const RunOptions& options);

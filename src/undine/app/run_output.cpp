@@ -8,9 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "undine/core/error.hpp"
-#include "undine/io/checksum.hpp"
-
 namespace undine {
 namespace {
 
@@ -39,18 +36,6 @@ std::vector<std::string> step_comments() {
 }
 
 }  // namespace
-
-std::string case_hash(const Document& document) {
-  Hash64 hash;
-  for (const auto& [key, value] : document.resolved()) {
-    if (key.starts_with("output") || key.starts_with("gauge") || key == "time.end" || key == "time.largest_step" ||
-        key == "title")
-      continue;
-    const std::string line = key + "=" + value + "\n";
-    hash.add_values(std::span<const char>(line));
-  }
-  return hash.text();
-}
 
 std::vector<SeriesColumn> energy_columns() {
   return {{"time", "s"},
@@ -81,6 +66,7 @@ OutputPlan read_output(const Table& root, const RunOptions& options, double end)
   plan.snapshots = table.non_negative("snapshots", unit::time, end / 20);
   plan.energies = table.non_negative("energies", unit::time, end / 200);
   plan.checkpoints = table.non_negative("checkpoints", unit::time, end / 5);
+  plan.checkpoint_wall_time = table.non_negative("checkpoint_wall_time", unit::time, 600);
   plan.report = table.flag("report", true) && options.report;
   std::vector<std::string> names;
   for (const auto& field : all_fields) names.emplace_back(field.name);
@@ -176,35 +162,6 @@ void write_progress(const std::filesystem::path& folder, const std::string& text
   if (std::ofstream stream(temporary); !(stream << text << '\n')) return;
   std::error_code ignored;
   std::filesystem::rename(temporary, file, ignored);
-}
-
-std::vector<std::filesystem::path> Checkpoints::files() const {
-  std::vector<std::filesystem::path> found;
-  if (std::filesystem::is_directory(folder_))
-    for (const auto& entry : std::filesystem::directory_iterator(folder_))
-      if (entry.path().extension() == ".checkpoint") found.push_back(entry.path());
-  std::ranges::sort(found);
-  return found;
-}
-
-void Checkpoints::write(const CheckpointData& data) const {
-  write_checkpoint(folder_ / fmt::format("step_{:012}.checkpoint", data.frame.step), data);
-  const auto all = files();
-  for (std::size_t k = 0; k + 2 < all.size(); ++k) std::filesystem::remove(all[k]);
-}
-
-OwnedCheckpoint Checkpoints::read_newest() const {
-  const auto all = files();
-  std::string reasons;
-  for (auto file = all.rbegin(); file != all.rend(); ++file) try {
-      return read_checkpoint(*file);
-    } catch (const InputError& error) {
-      reasons += (reasons.empty() ? "" : "; ") + error.parts().where.file + " " + error.parts().what;
-    }
-  throw InputError({.what = "there is no checkpoint to resume from",
-                    .where = {folder_.string()},
-                    .why = reasons,
-                    .fix = "run without --resume, or name the folder of an interrupted run with --out"});
 }
 
 template Frame frame_of<1>(const Flow<1>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);

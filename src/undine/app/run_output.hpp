@@ -10,7 +10,6 @@
 
 #include "undine/app/run_options.hpp"
 #include "undine/io/case/document.hpp"
-#include "undine/io/checkpoint.hpp"
 #include "undine/io/snapshot.hpp"
 #include "undine/io/time_series.hpp"
 #include "undine/schemes/flow.hpp"
@@ -21,15 +20,13 @@ namespace undine {
 struct OutputPlan {
   std::filesystem::path folder;
   double snapshots = 0, energies = 0, checkpoints = 0;
-  std::vector<int> fields;  ///< of snapshots, as in fields.def
-  bool report = true;       ///< whether a page that shows the run is written at its end
+  double checkpoint_wall_time = 0;  ///< on the clock, not in the simulation
+  std::vector<int> fields;          ///< of snapshots, as in fields.def
+  bool report = true;               ///< whether a page that shows the run is written at its end
 };
 
 /// Reads [output] for a run that ends at `end` (s).
 OutputPlan read_output(const Table& root, const RunOptions& options, double end);
-
-/// The part of a case that must be the same for a checkpoint to fit: all but how long it runs and what it writes.
-std::string case_hash(const Document& document);
 
 /// Whether a multiple of `interval` lies in (before, now]; also at the very start.
 bool due(double interval, double before, double now);
@@ -79,19 +76,5 @@ class StepSeries {
 /// Replaces progress.json, by which others may follow a run. Not forced to the disk, and silent where it cannot be
 /// written: nothing depends on it.
 void write_progress(const std::filesystem::path& folder, const std::string& text);
-
-/// The last two checkpoints of a folder, by step.
-class Checkpoints {
- public:
-  explicit Checkpoints(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  /// Writes one and removes all but the last two.
-  void write(const CheckpointData& data) const;
-  /// The newest that is whole; throws InputError when there is none.
-  OwnedCheckpoint read_newest() const;
-
- private:
-  std::vector<std::filesystem::path> files() const;
-  std::filesystem::path folder_;
-};
 
 }  // namespace undine

@@ -208,7 +208,7 @@ TEST(Gas, KeepsEnergyAndMomentum) {
   const test::Threads one(1);
   const int side = 16;
   const double spacing = 1.0 / side, q = 2.6;
-  for (int form = 0; form < terms::GasPressureForms::count; ++form)
+  for (int form = 0; form < terms::GasPressureForms::size; ++form)
     for (const int dissipation : {0, 1, 2}) {
       auto options = test::gas<2>(q * spacing, spacing);
       if (form == terms::GasPressureForms::index<terms::PressureGradHMass>()) {

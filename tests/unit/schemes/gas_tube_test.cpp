@@ -93,7 +93,9 @@ TEST(Gas, SwitchActsInTheShockAlone) {
     const double alpha = flow.store().get<alpha_v>()[i], place = flow.store().get<x>()[i][0];
     EXPECT_GE(alpha, 0);
     EXPECT_LE(alpha, 2);
-    if (place > 0.35) EXPECT_LT(alpha, 0.1) << place;
+    if (place > 0.35) {
+      EXPECT_LT(alpha, 0.1) << place;
+    }
     if (std::abs(place - shock) < 0.03) in_shock = std::max(in_shock, alpha);
   }
   EXPECT_GT(in_shock, 0.7);
