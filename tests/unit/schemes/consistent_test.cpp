@@ -97,7 +97,9 @@ TEST(Shifting, MovesTowardsEmptySpace) {
       if (R < 1) gradient += sq(spacing) * WendlandC2::slope_over_R<2>(R) / std::pow(support, 4) * d;
     }
     for (int k = 0; k < 2; ++k) EXPECT_NEAR(s[k], -0.5 * c_0 * support * gradient[k], 1e-9);
-    if (at[0] > 0.49 && std::abs(at[1]) < 0.01) EXPECT_GT(s[0], 1);
+    if (at[0] > 0.49 && std::abs(at[1]) < 0.01) {
+      EXPECT_GT(s[0], 1);
+    }
   }
 }
 
