@@ -7,7 +7,7 @@ cd -P "$(dirname "${BASH_SOURCE[0]}")"
 main_case=cases/dam_break/spheric2.toml
 build_packages=(g++ cmake ninja-build ccache libtomlplusplus-dev libcli11-dev libfmt-dev libhdf5-dev libeigen3-dev
   libgtest-dev libgmock-dev librapidcheck-dev nlohmann-json3-dev zlib1g-dev libcairo2-dev libcpp-httplib-dev pkg-config)
-test_packages=(clang-format python3 python3-vtk9 python3-h5py python3-numpy chromium ffmpeg)
+test_packages=(clang llvm libclang-rt-dev libomp-dev clang-format python3 python3-vtk9 python3-h5py python3-numpy chromium ffmpeg)
 # Where another source brought npm with its nodejs, Debian's npm would not go with it.
 if ! command -v npm >/dev/null; then test_packages+=(nodejs npm); fi
 seconds_per_test=900
@@ -23,8 +23,8 @@ Usage: ./quickstart.sh [COMMAND]
   (none)  install what is missing, build build/undine, run the dam break of SPHERIC test 2 into out/spheric2
   build   install what is missing and build build/undine, no more
   test    install what is missing for the tests too, build everything, and run the format check, the structure check,
-          all tests, a short bench into out/bench.json (not judged), and the unit tests once more with the address and
-          undefined-behaviour sanitizers; the last line is "N passed, N failed"
+          all tests, a short bench into out/bench.json (not judged), and, with the address and undefined-behaviour
+          sanitizers, the unit tests once more and half a minute of fuzzing; the last line is "N passed, N failed"
   help    this text
 
 Packages are installed with apt-get, through sudo where the user is not root. Where nothing is missing, neither is called.
@@ -96,9 +96,12 @@ configure() {
   cmake "${options[@]}"
 }
 
-# build FOLDER [TARGET]
+# build FOLDER [TARGET...]
 build() {
-  "${launcher[@]}" cmake --build "$1" --parallel "$(compile_jobs)" --target "${2:-all}"
+  local folder=$1
+  shift
+  if (($# == 0)); then set -- all; fi
+  "${launcher[@]}" cmake --build "$folder" --parallel "$(compile_jobs)" --target "$@"
 }
 
 build_program() {
@@ -167,10 +170,11 @@ run_tests() {
   # Where the kernel randomizes more address bits than the sanitizers of g++ 12 allow for, they crash at random at start-up.
   if setarch -R true 2>/dev/null; then launcher=(setarch -R); fi
   # No vector instructions beyond the compiler's default and little optimization: what is looked for is errors, not speed.
-  if step "configure with sanitizers" configure build-asan -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" \
-    -DUNDINE_SANITIZE=ON -DUNDINE_ARCH= -DUNDINE_TESTS=ON &&
-    step "build with sanitizers" build build-asan undine_unit; then
-    step "unit tests with sanitizers" run_ctest build-asan --tests-regex '^unit\.' || true
+  if step "configure with sanitizers" configure build-sanitized -DCMAKE_BUILD_TYPE=Debug \
+    "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -gline-tables-only" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
+    -DUNDINE_SANITIZE=ON -DUNDINE_FUZZ=ON -DUNDINE_ARCH= -DUNDINE_TESTS=ON &&
+    step "build with sanitizers" build build-sanitized undine_unit undine_fuzz; then
+    step "unit tests and fuzzing with sanitizers" run_ctest build-sanitized --tests-regex '^(unit|fuzz)\.' || true
   else
     count_fail
   fi

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -96,6 +97,16 @@ void check_values(const Table& table, const fs::path& file, const ParticleList& 
   }
 }
 
+/// Bytes that a run may take: the machine's, or less where the process or UNDINE_MEMORY (in bytes) is limited to less.
+double memory_here() {
+  double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (rlimit limit{}; getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    memory = std::min(memory, static_cast<double>(limit.rlim_cur));
+  if (const char* allowed = std::getenv("UNDINE_MEMORY"))
+    if (const double bytes = std::strtod(allowed, nullptr); bytes > 0) memory = std::min(memory, bytes);
+  return memory;
+}
+
 }  // namespace
 
 fs::path existing_file(const Table& table, std::string_view key) {
@@ -116,9 +127,7 @@ ParticleList read_particle_list(const Table& table, int dimensions, Group group)
 }
 
 void check_room(const Table& table, double count, double spacing) {
-  double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (rlimit limit{}; getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-    memory = std::min(memory, static_cast<double>(limit.rlim_cur));
+  const double memory = memory_here();
   if (count * bytes_per_particle <= memory) return;
   throw InputError(
       {.what = "the spacing makes more particles than this machine can hold",

@@ -84,26 +84,40 @@ void read_backend(const Table& scheme, FlowOptions<N>& options) {
   options.neighbours.list_memory = 1e6 * search.in_range("list_memory_mb", unit::one, {0, 1e9}, 0);
 }
 
-/// What viscosities do at walls.
+/// What viscosities do at walls. A preset's no-slip walls are a default only where walls and fluid can do it.
 template <int N>
-void read_slip(const Table& wall, WeaklyCompressibleOptions<N>& options) {
+void read_slip(const Table& wall, std::string_view preset, WeaklyCompressibleOptions<N>& options) {
   options.wall_friction = wall.flag("friction", true);
-  if (!wall.has("slip")) return;
+  using walls::WallDensity;
+  const bool answers =
+      options.wall_density == WallDensity::extrapolated || options.wall_density == WallDensity::mirrored;
+  if (!wall.has("slip") && (preset != "no_slip" || !answers || !options.viscosity || wall.has("friction"))) return;
   if (wall.has("friction"))
     wall.fail("slip", "both 'slip' and 'friction' are given", "friction = false is slip = \"free_slip\"",
               "keep 'slip'");
-  const std::string slip = wall.choice("slip", {"free_slip", "wall_velocity", "no_slip"});
+  const std::string slip = wall.choice("slip", {"free_slip", "wall_velocity", "no_slip"}, std::string(preset));
   options.wall_friction = slip != "free_slip";
   options.wall_no_slip = slip == "no_slip";
   if (!options.wall_no_slip) return;
-  using walls::WallDensity;
-  if (options.wall_density != WallDensity::extrapolated && options.wall_density != WallDensity::mirrored)
+  if (!answers)
     wall.fail("slip", "these walls cannot hold the fluid at their surface",
               "only the treatments 'adami' and 'mdbc' answer with a velocity",
               "take one of them, or slip = \"wall_velocity\"");
   if (!options.viscosity)
     wall.fail("slip", "nothing holds the fluid at a no-slip wall", "the case has no viscous force",
               "choose scheme.viscosity.form, such as \"morris\"");
+}
+
+/// Corrected gradients and shifted particles.
+template <int N, class Preset>
+void read_consistency(const Table& scheme, WeaklyCompressibleOptions<N>& options, Preset) {
+  options.corrected_gradients =
+      scheme.choice("gradients", {"plain", "corrected"}, std::string(Preset::gradients)) == "corrected";
+  options.shifting = read_optional<terms::Shiftings>(scheme.table("shifting"), Preset::shifting);
+  if (options.consistent() && options.xsph)
+    scheme.table("xsph").fail("form", "XSPH does not go with corrected gradients or shifted particles",
+                              "both would say how particles move beside their velocity",
+                              "set scheme.xsph.form = \"none\", or gradients = \"plain\" and shifting.form = \"none\"");
 }
 
 template <int N, class Preset>
@@ -136,10 +150,15 @@ SchemeChoice read_liquid(const Table& root, double spacing, WeaklyCompressibleOp
       scheme.table("xsph").choice("acts_on", {"position", "velocity"}, std::string(Preset::xsph_target)) == "velocity"
           ? XsphTarget::velocity
           : XsphTarget::position;
+  read_consistency(scheme, options, Preset{});
   options.strain_dissipation = root.table("output").flag("strain_dissipation", false);
 
   read_walls<N>(scheme, basics, options, choice);
-  read_slip(scheme.table("wall"), options);
+  read_slip(scheme.table("wall"), Preset::slip, options);
+  if (options.consistent() && choice.wall_force == walls::WallForce::repulsion)
+    scheme.table("wall").fail("treatment", "walls that repel do not go with corrected gradients or shifted particles",
+                              "they are no part of the neighbourhood whose moments and concentration are summed",
+                              "take walls of particles, such as \"adami\"");
   read_time(root, basics, choice);
   return choice;
 }

@@ -23,6 +23,7 @@ static_assert(std::endian::native == std::endian::little, "binary STL is little-
 constexpr std::size_t header_size = 84;
 constexpr std::size_t record_size = 50;
 constexpr std::size_t most_triangles = 500'000'000;
+constexpr double farthest = 1e100;  // m
 
 std::string read_file(const std::string& path) {
   std::error_code code;
@@ -47,6 +48,15 @@ class Soup {
                         .where = where,
                         .why = fmt::format("a vertex is ({}, {}, {})", p[0], p[1], p[2]),
                         .fix = "export the mesh again, or repair it"});
+    }
+    for (const Vec3& p : corners) {
+      if (scale_ * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) <= farthest) continue;
+      throw InputError({.what = which + " lies too far out",
+                        .where = where,
+                        .why = fmt::format("a vertex is ({}, {}, {}), times the scale {}; squares of more than {} m "
+                                           "are no numbers",
+                                           p[0], p[1], p[2], scale_, farthest),
+                        .fix = "repair the mesh, or set its scale"});
     }
     const Vec3 ab = corners[1] - corners[0];
     const Vec3 ac = corners[2] - corners[0];

@@ -207,10 +207,14 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
   const Handle properties(H5Dget_create_plist(set.get()), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(properties.get());
   if (layout == H5D_VIRTUAL || H5Pget_external_count(properties.get()) > 0) fail(name, "its data is in other files");
-  // Deflate cannot shrink data more than 1032 times: what claims more was never written, or is damaged.
-  const hsize_t stored = H5Dget_storage_size(set.get());
-  if (count > 65536 + 1040 * std::min<hsize_t>(stored, std::numeric_limits<hsize_t>::max() / 1040) || stored == 0)
-    fail(name, fmt::format("it claims {} values in {} bytes", count, stored));
+  // Deflate cannot shrink data more than 1032 times, and no data takes more room than the file: what claims more was
+  // never written, or is damaged.
+  hsize_t file_size = 0;
+  H5Fget_filesize(id_, &file_size);
+  const hsize_t stored = std::min<hsize_t>(H5Dget_storage_size(set.get()), file_size);
+  if (stored == 0 || count > (65536 + 1040 * std::min<hsize_t>(stored, std::numeric_limits<hsize_t>::max() / 2080)) /
+                                 std::max<std::size_t>(H5Tget_size(type.get()), 1))
+    fail(name, fmt::format("it claims {} values in {} bytes of a file of {}", count, stored, file_size));
   std::vector<T> values(count);
   if (H5Dread(set.get(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) fail(name, reason());
   return values;

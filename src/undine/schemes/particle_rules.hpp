@@ -109,4 +109,30 @@ struct RenormaliseGradient {
   }
 };
 
+/// M -> M^-1, by which kernel gradients become exact for linear fields, and with it G = M^-1 grad rho. Where the
+/// neighbours do not span space, and in runs that shift particles but correct nothing, gradients stay as they are.
+/// Randles & Libersky (1996); Bonet & Lok (1999).
+template <int N>
+struct CorrectGradients {
+  using reads = Fields<grad_rho, moment>;
+  using writes = Fields<moment, grad_rho_l>;
+  bool corrects;
+
+  auto operator()(const auto& a, int) const {
+    Eigen::Matrix<double, N, N> matrix;
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < N; ++j) matrix(i, j) = a.moment[i][j];
+    const bool invertible = std::abs(matrix.determinant()) > 0.05;
+    const Eigen::Matrix<double, N, N> inverse = invertible ? matrix.inverse().eval() : matrix.Identity();
+    Vec<N, Vec<N>> correction{};
+    Vec<N> gradient{};
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < N; ++j) {
+        correction[i][j] = corrects ? inverse(i, j) : (i == j ? 1 : 0);
+        gradient[i] += inverse(i, j) * a.grad_rho[j];
+      }
+    return writes::row(correction, gradient);
+  }
+};
+
 }  // namespace undine::rules

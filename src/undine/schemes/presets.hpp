@@ -17,7 +17,8 @@ struct Recommended {
   static constexpr std::string_view kernel = "wendland_c2", density = "continuity", pressure = "symmetric",
                                     viscosity = "none", artificial = "monaghan", diffusion = "fourtakas", xsph = "none",
                                     xsph_target = "position", eos = "tait_sound_speed", wall = "adami",
-                                    wall_reference = "auto", integrator = "leapfrog";
+                                    wall_reference = "auto", integrator = "leapfrog", gradients = "plain",
+                                    shifting = "none", slip = "wall_velocity";
   static constexpr double support_over_spacing = 2.6, alpha = 0.02, epsilon = 0.5, fixed_step = 0;
   static constexpr double separation = 10, reach = 0.5;  ///< of (expected speed)^2, of the spacing
   static constexpr bool tension = false;                 ///< of liquids under gravity; others bear it
@@ -34,7 +35,8 @@ struct Saalfeld {
   static constexpr std::string_view kernel = "wendland_c2", density = "continuity_volume", pressure = "symmetric",
                                     viscosity = "laminar", artificial = "none", diffusion = "none", xsph = "xsph",
                                     xsph_target = "velocity", eos = "tait", wall = "combined", wall_reference = "rho_0",
-                                    integrator = "leapfrog";
+                                    integrator = "leapfrog", gradients = "plain", shifting = "none",
+                                    slip = "wall_velocity";
   static constexpr double support_over_spacing = 2.25, alpha = 0.02, epsilon = 0.1, fixed_step = 1e-3;
   static constexpr double separation = 0, reach = 0.5;
   static constexpr bool tension = true;
@@ -76,7 +78,27 @@ struct Niedoba {
   static constexpr int wall_layers = 1;
 };
 
+/// Chosen by the runs in docs/viscous.md.
+struct Confined {
+  static constexpr Info info{
+      "confined", "What we find best for viscous flow without a free surface",
+      "Wendland C2, H = 3 dp, volume-weighted continuity, pressure differences, Morris viscosity, antuono diffusion, "
+      "all "
+      "with corrected gradients; Fickian shifting; linear equation of state; Adami walls that pull, without slip",
+      "docs/viscous.md"};
+  static constexpr std::string_view kernel = "wendland_c2", density = "continuity_volume", pressure = "difference",
+                                    viscosity = "morris", artificial = "none", diffusion = "antuono", xsph = "none",
+                                    xsph_target = "position", eos = "linear", wall = "adami", wall_reference = "auto",
+                                    integrator = "leapfrog", gradients = "corrected", shifting = "fickian",
+                                    slip = "no_slip";
+  static constexpr double support_over_spacing = 3, alpha = 0.02, epsilon = 0.5, fixed_step = 0;
+  static constexpr double separation = 0, reach = 0.5;
+  static constexpr bool tension = true;
+  static constexpr bool wall_pulls = true, guard = true;
+  static constexpr int wall_layers = 0;
+};
+
 /// The one list of schemes.
-using Presets = Catalogue<Recommended, Saalfeld, Gas, Niedoba>;
+using Presets = Catalogue<Recommended, Saalfeld, Confined, Gas, Niedoba>;
 
 }  // namespace undine::presets

@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "undine/schemes/consistent_sweeps.hpp"
 #include "undine/schemes/flow.hpp"
 #include "undine/schemes/weakly_compressible_options.hpp"
 #include "undine/schemes/weakly_compressible_sweeps.hpp"
@@ -40,6 +41,7 @@ class WeaklyCompressible : public Flow<N> {
   using Flow<N>::potential_origin_;
   using Flow<N>::ledger_;
   using Sweeps = WeaklyCompressibleSweeps<N>;
+  using Consistent = ConsistentSweeps<N>;
 
   WeaklyCompressible(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options,
                      const std::vector<double>& memory);
@@ -49,16 +51,25 @@ class WeaklyCompressible : public Flow<N> {
   std::vector<typename Flow<N>::Evolved> evolved() const override;
   void limit_state() override;
   void configure();
+  void configure_consistent();
   void make_plan();
   void add_wall_stages();
   void add_inertia_stage();
   void add_mirror_stage();
   void add_push_stages();
   void add_strain_stage();
+  void add_consistent_stages();
+  template <class Force>
+  void book_force(const Force& force, double dt);
   /// Whether walls hold the fluid by a friction of their own.
   bool holds() const { return options_.wall_no_slip && options_.viscosity; }
-  /// Whether walls accelerate fluid through `acc_wall`.
-  bool pushes() const { return options_.repulsion || holds(); }
+  /// Whether walls accelerate fluid through `acc_wall`, in a sweep of their own.
+  bool pushes() const { return !options_.consistent() && (options_.repulsion || holds()); }
+  /// Whether viscosity acts between fluid and walls in the sweep of ConsistentSweeps.
+  bool rubs() const {
+    return options_.consistent() && options_.wall_density != walls::WallDensity::none && options_.wall_friction &&
+           options_.viscosity;
+  }
   /// A summed density leaves nothing for diffusion to change.
   bool diffuses() const { return options_.diffusion && options_.density == DensityForm::evolved; }
   bool renormalises() const {
@@ -79,6 +90,9 @@ class WeaklyCompressible : public Flow<N> {
   typename Sweeps::Gradient gradient_{"density gradient", Group::fluid};
   typename Sweeps::Strain strain_{"velocity gradient", Group::fluid};
   typename Sweeps::WallForce wall_force_{"wall force", Group::wall};
+  typename Consistent::Force consistent_force_{"force", Group::fluid, Booking::on};
+  typename Consistent::Continuity consistent_continuity_{"continuity", Group::fluid};
+  typename Consistent::Shift shift_{"shift", Group::fluid};
 };
 
 extern template class WeaklyCompressible<1>;

@@ -72,10 +72,14 @@ void WeaklyCompressible<N>::configure() {
   pushed_back_.template use<0>() = {repulsion, options_.repulsion.has_value(), {true, false}, {}};
   pushed_back_.template use<1>() = {no_slip, holds(), {true, false}, {}};
 
-  wall_force_.template use<0>() = {options_.pressure, true, {true, false}, {}};
+  // Differences of pressure say nothing of what presses on a wall.
+  const OneOf<terms::PressureForms> on_walls =
+      options_.consistent() ? OneOf<terms::PressureForms>(terms::PressureSum{}) : options_.pressure;
+  wall_force_.template use<0>() = {on_walls, true, {true, false}, {}};
   wall_force_.template use<1>() = {
       chosen(options_.viscosity), options_.viscosity && friction && !holds(), {true, false}, {}};
   wall_force_.template use<2>() = {chosen(options_.artificial), options_.artificial && friction, {true, false}, {}};
+  if (options_.consistent()) configure_consistent();
 }
 
 /// What one evaluation of the rates consists of. The order follows from what the stages read and write.
@@ -86,14 +90,18 @@ void WeaklyCompressible<N>::make_plan() {
   this->add_summation_stages(options_.density, walls);
   this->add_update("equation of state", Group::fluid, rules::ApplyEquationOfState{options_.materials});
   if (walls) add_wall_stages();
-  if (renormalises()) {
-    this->add_sweep(gradient_, false);
-    this->add_update("renormalised gradient", Group::fluid, rules::RenormaliseGradient<N>{});
+  if (options_.consistent()) {
+    add_consistent_stages();
+  } else {
+    if (renormalises()) {
+      this->add_sweep(gradient_, false);
+      this->add_update("renormalised gradient", Group::fluid, rules::RenormaliseGradient<N>{});
+    }
+    this->add_sweep(force_, walls);
   }
-  this->add_sweep(force_, walls);
   if (pushes()) add_push_stages();
   if (options_.strain_dissipation) add_strain_stage();
-  this->add_body_force_stage(pushes());
+  this->add_body_force_stage(pushes() || rubs());
 
   FieldSet given_fields = Fields<x, v, m, rho, x_list>::set();
   const auto give = [&](bool needed, const FieldSet& fields) {
@@ -104,8 +112,8 @@ void WeaklyCompressible<N>::make_plan() {
   give(options_.viscosity || options_.strain_dissipation, Fields<mu>::set());
   give(options_.supports_vary(), Fields<h>::set());
   // Terms that are not in use leave these at zero, and so do walls.
-  const Resources at_rest =
-      Resources(Group::fluid, Fields<grad_rho_l>::set()).add(Group::wall, Fields<grad_rho_l, p, c>::set());
+  const Resources at_rest = Resources(Group::fluid, Fields<grad_rho_l>::set())
+                                .add(Group::wall, Fields<grad_rho_l, p, c, moment, v_xsph>::set());
   this->finish_plan({given_fields, Fields<p, c, acc, drho, mu_cfl>::set(),
                      Fields<acc_old, x_start, v_start, rho_start>::set(), at_rest});
 }
@@ -137,7 +145,8 @@ void WeaklyCompressible<N>::prepare() {
 
 template <int N>
 std::span<const Vec<N>> WeaklyCompressible<N>::drift_correction() const {
-  if (!options_.xsph || options_.xsph_target != XsphTarget::position) return {};
+  const bool xsph = options_.xsph && options_.xsph_target == XsphTarget::position;
+  if (!xsph && !options_.shifting) return {};
   return store_.template get<v_xsph>();
 }
 
@@ -150,7 +159,7 @@ void WeaklyCompressible<N>::compress(double dt) {
     std::vector<double> smallest;
     for (const auto& substance : options_.materials) smallest.push_back(substance.smallest_density());
     const auto material = store_.materials();
-    for_each_particle(store_, Group::fluid, [&, diffuses = diffuses()](std::size_t i) {
+    for_each_particle(store_, Group::fluid, [&, diffuses = diffuses() || options_.shifting](std::size_t i) {
       density[i] += dt * (diffuses ? rate[i] + diffused[i] : rate[i]);
       density[i] = std::max(density[i], smallest[material[i]]);
     });
@@ -166,7 +175,7 @@ template <int N>
 std::vector<typename Flow<N>::Evolved> WeaklyCompressible<N>::evolved() const {
   auto all = Flow<N>::evolved();
   std::vector<int> rates{drho::id};
-  if (diffuses()) rates.push_back(drho_diff::id);
+  if (diffuses() || options_.shifting) rates.push_back(drho_diff::id);
   if (options_.density == DensityForm::evolved) all.push_back({Group::fluid, rho::id, rates});
   if (options_.wall_density == WallDensity::evolved) all.push_back({Group::wall, rho::id, {drho::id}});
   return all;
@@ -183,7 +192,8 @@ void WeaklyCompressible<N>::limit_state() {
 template <int N>
 void WeaklyCompressible<N>::continuity() {
   if (options_.density == DensityForm::evolved || options_.wall_density == WallDensity::evolved) this->refresh_lists();
-  if (options_.density == DensityForm::evolved) this->run(continuity_);
+  if (options_.density == DensityForm::evolved && options_.consistent()) this->run(consistent_continuity_);
+  if (options_.density == DensityForm::evolved && !options_.consistent()) this->run(continuity_);
   if (options_.wall_density == WallDensity::evolved) this->run(wall_continuity_);
 }
 
@@ -202,19 +212,38 @@ void WeaklyCompressible<N>::smooth() {
   });
 }
 
+/// What the terms of a force sweep took from the energy. Of XSPH, which changes no rate, that is nothing; what shifted
+/// particles take over from their neighbours stands in its place.
 template <int N>
-void WeaklyCompressible<N>::book(double dt) {
+template <class Force>
+void WeaklyCompressible<N>::book_force(const Force& force, double dt) {
   constexpr int fluid = 0, wall = 1;
-  const Power& pressure = force_.template use<Sweeps::pressure>().power;
-  const Power& compression = force_.template use<Sweeps::continuity>().power;
-  const Power& viscous = force_.template use<Sweeps::viscosity>().power;
-  const Power& artificial = force_.template use<Sweeps::artificial>().power;
-  const Power& diffusion = force_.template use<Sweeps::diffusion>().power;
+  const auto power = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) -> const Power& {
+    return std::get<k>(force.uses()).power;
+  };
+  const Power& pressure = power(std::integral_constant<std::size_t, Sweeps::pressure>{});
+  const Power& compression = power(std::integral_constant<std::size_t, Sweeps::continuity>{});
+  const Power& viscous = power(std::integral_constant<std::size_t, Sweeps::viscosity>{});
+  const Power& artificial = power(std::integral_constant<std::size_t, Sweeps::artificial>{});
+  const Power& diffusion = power(std::integral_constant<std::size_t, Sweeps::diffusion>{});
+  const Power& moved = power(std::integral_constant<std::size_t, Sweeps::xsph>{});
   ledger_.viscous -= dt * viscous[fluid];
   ledger_.artificial -= dt * artificial[fluid];
   ledger_.diffusion -= dt * (diffusion[fluid] + diffusion[wall]);
   ledger_.exchange -= dt * (pressure[fluid] + compression[fluid]);
   ledger_.walls -= dt * (pressure[wall] + compression[wall] + viscous[wall] + artificial[wall]);
+  ledger_.xsph -= dt * (moved[fluid] + moved[wall]);
+}
+
+template <int N>
+void WeaklyCompressible<N>::book(double dt) {
+  constexpr int wall = 1;
+  if (options_.consistent()) {
+    book_force(consistent_force_, dt);
+    ledger_.walls -= dt * consistent_force_.template use<Consistent::friction>().power[wall];
+  } else {
+    book_force(force_, dt);
+  }
   if (pushes()) ledger_.walls -= dt * (push_.template use<0>().power[wall] + push_.template use<1>().power[wall]);
   ledger_.body -= dt * body_power_;
   strain_dissipated_ += dt * strain_power_;
@@ -276,11 +305,16 @@ std::vector<double*> WeaklyCompressible<N>::remembered() {
     };
     (one(use.power), ...);
   };
-  std::apply(each, force_.uses());
+  if (options_.consistent()) {
+    std::apply(each, consistent_force_.uses());
+  } else {
+    std::apply(each, force_.uses());
+  }
   if (pushes()) std::apply(each, push_.uses());
   return numbers;
 }
 
 }  // namespace undine
 
+#include "undine/schemes/weakly_compressible_consistent_impl.hpp"
 #include "undine/schemes/weakly_compressible_walls_impl.hpp"

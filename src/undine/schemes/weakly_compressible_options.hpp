@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "undine/schemes/flow_options.hpp"
+#include "undine/terms/velocity/shifting.hpp"
 
 namespace undine {
 
@@ -19,6 +20,11 @@ struct WeaklyCompressibleOptions : FlowOptions<N> {
   std::optional<OneOf<terms::VelocityCorrections>> xsph;
   XsphTarget xsph_target = XsphTarget::position;
   std::optional<OneOf<terms::DiffusionForms>> diffusion;
+
+  bool corrected_gradients = false;                 ///< by the inverse of their moments
+  std::optional<OneOf<terms::Shiftings>> shifting;  ///< of particles towards even spacing; not with XSPH
+  /// Whether the sweeps of ConsistentSweeps take the place of the usual ones.
+  bool consistent() const { return corrected_gradients || shifting; }
 
   bool wall_friction = true;        ///< whether viscosities act between fluid and walls
   bool wall_no_slip = false;        ///< whether viscosities hold the fluid at the walls' surface, not only drag on it

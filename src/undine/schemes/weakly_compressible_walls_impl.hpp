@@ -90,7 +90,7 @@ template <int N>
 void WeaklyCompressible<N>::evaluate_wall_forces() {
   const bool answers = options_.wall_density != WallDensity::none;
   if (answers) this->run(wall_force_);
-  if (!pushes()) return;
+  if (!options_.repulsion && !holds()) return;
   this->run(pushed_back_);
   auto a = store_.template get<acc>();
   const auto push = store_.template get<acc_wall>();

@@ -5,6 +5,7 @@
 
 #include "undine/engine/pair_sweep.hpp"
 #include "undine/terms/catalogue.hpp"
+#include "undine/terms/velocity/shifting.hpp"
 
 namespace undine::test {
 
@@ -26,6 +27,7 @@ struct EveryTermOf<std::tuple<Catalogue<Sum...>, Catalogue<Lone...>, Catalogue<F
                           Use<OneOf<terms::ArtificialViscosities>, KernelRole::viscosity>,  //
                           Use<OneOf<terms::DiffusionForms>>,                                //
                           Use<OneOf<terms::VelocityCorrections>>,                           //
+                          Use<OneOf<terms::Shiftings>>,                                     //
                           Use<OneOf<terms::NoSlipForms>, KernelRole::viscosity>,            //
                           Use<OneOf<WorkForms>, KernelRole::pressure>,                      //
                           Use<OneOf<terms::GasViscosities>, KernelRole::viscosity>,         //
@@ -47,6 +49,7 @@ void for_each_term(F&& f) {
   terms::ArtificialViscosities::for_each(f);
   terms::DiffusionForms::for_each(f);
   terms::VelocityCorrections::for_each(f);
+  terms::Shiftings::for_each(f);
   terms::Sums::for_each(f);
   LoneTerms::for_each(f);
   terms::WallForces::for_each(f);

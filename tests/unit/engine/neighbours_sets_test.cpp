@@ -33,8 +33,9 @@ Domain<N> box(double low, double high, int periodic_axes) {
 
 template <int N, class F>
 std::vector<Vec<N>> points(int n, F&& f) {
+  const int count = n > 1 ? fewer(n, 3) : n;
   std::vector<Vec<N>> all;
-  for (int k = 0; k < n; ++k) all.push_back(f(k));
+  for (int k = 0; k < count; ++k) all.push_back(f(k));
   return all;
 }
 

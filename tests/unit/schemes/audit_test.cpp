@@ -90,14 +90,16 @@ void expect_second_order(const WeaklyCompressibleOptions<2>& options, const std:
   const Tank tank;
   double residuals[2];
   for (const int fine : {0, 1}) {
-    const int steps = fine ? 600 : 300;
+    const int steps = test::fewer(fine ? 600 : 300);
     WeaklyCompressible<2> flow(tank.store(), tank.domain(), options);
-    const auto a = audit<Integrator>(flow, 0.15, steps);
+    const auto a = audit<Integrator>(flow, steps * (fine ? 2.5e-4 : 5e-4), steps);
     print((what + ", " + std::string(Integrator::info.name)).c_str(), steps, a);
     residuals[fine] = std::abs(a.residual);
   }
   EXPECT_LE(residuals[0], 3e-5) << what << ' ' << Integrator::info.name;
-  EXPECT_GE(std::log2(residuals[0] / residuals[1]), 1.6) << what << ' ' << Integrator::info.name;
+  if (!test::under_sanitizer) {
+    EXPECT_GE(std::log2(residuals[0] / residuals[1]), 1.6) << what << ' ' << Integrator::info.name;
+  }
 }
 
 template <class F>
@@ -136,12 +138,16 @@ TEST(Audit, BodyForcesAreBookedWhereTheyAct) {
   };
   const auto residual = [&]<class Integrator>(Integrator, int steps) {
     WeaklyCompressible<2> flow(square.store(), square.domain(), options);
-    const auto a = audit<Integrator>(flow, 0.04, steps);
+    const int taken = test::fewer(steps);
+    const auto a = audit<Integrator>(flow, 0.04 * taken / steps, taken);
     print(Integrator::info.name.data(), steps, a);
     return std::abs(a.residual);
   };
-  EXPECT_GE(std::log2(residual(Leapfrog{}, 100) / residual(Leapfrog{}, 200)), 1.6);
-  EXPECT_GE(std::log2(residual(PredictorCorrector{}, 100) / residual(PredictorCorrector{}, 200)), 1.6);
+  for (const double ratio : {residual(Leapfrog{}, 100) / residual(Leapfrog{}, 200),
+                             residual(PredictorCorrector{}, 100) / residual(PredictorCorrector{}, 200)})
+    if (!test::under_sanitizer) {
+      EXPECT_GE(std::log2(ratio), 1.6);
+    }
 }
 
 WeaklyCompressibleOptions<2> everything() {
@@ -247,8 +253,9 @@ TEST(Audit, ElasticWallsKeepEverybodyIn) {
   for (std::size_t i = store.range(Group::wall).begin; i < walls.size(); ++i) walls[i] = 1;
   store.remove(walls);
   WeaklyCompressible<2> flow(std::move(store), tank.domain(), options);
-  const auto a = audit<Leapfrog>(flow, 0.3, 1200);
-  print("elastic", 1200, a);
+  const int steps = test::fewer(1200, 4);
+  const auto a = audit<Leapfrog>(flow, steps * 2.5e-4, steps);
+  print("elastic", steps, a);
   EXPECT_LE(std::abs(a.residual), 0.02);
   for (const auto& at : flow.store().get<x>())
     for (int k = 0; k < 2; ++k) EXPECT_TRUE(at[k] >= 0 && at[k] <= 1);

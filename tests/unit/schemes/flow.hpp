@@ -5,6 +5,7 @@
 #include "undine/integrators/catalogue.hpp"
 #include "undine/schemes/weakly_compressible.hpp"
 #include "unit/engine/crowd.hpp"
+#include "unit/under_sanitizer.hpp"
 
 namespace undine::test {
 

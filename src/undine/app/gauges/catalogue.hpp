@@ -9,6 +9,7 @@
 #include "undine/app/gauges/leak.hpp"
 #include "undine/app/gauges/mixed_layer.hpp"
 #include "undine/app/gauges/probe.hpp"
+#include "undine/app/gauges/profile.hpp"
 #include "undine/app/gauges/wall_force.hpp"
 #include "undine/app/gauges/wall_motion.hpp"
 
@@ -28,6 +29,7 @@ using GaugeTypes = Catalogue<  //
     MeanDensity<N>,            //
     CentreOfMass<N>,           //
     MixedLayer<N>,             //
+    Profile<N>,                //
     ErrorGauge<N>>;
 
 }  // namespace undine::gauges

@@ -23,6 +23,7 @@ using Code = Expression::Code;
 using Step = Expression::Step;
 
 constexpr int any_number = -1;
+constexpr auto simpler = "write it with fewer operations and brackets, or give particles a list of values";
 
 struct Function {
   std::string_view name;
@@ -112,7 +113,8 @@ class Compiler {
 
   std::vector<Step> compile() {
     if (source_.size() > Expression::longest_source)
-      fail(0, fmt::format("it has {} characters; at most {} are allowed", source_.size(), Expression::longest_source));
+      fail(0, fmt::format("it has {} characters; at most {} are allowed", source_.size(), Expression::longest_source),
+           simpler);
     for (const auto& [name, value] : constants_) check_name(name);
     comparison();
     if (at_ < source_.size()) left_over();
@@ -170,7 +172,7 @@ class Compiler {
     const auto count = static_cast<std::size_t>(arity(code));
     held_ += 1 - static_cast<int>(count);
     if (held_ > Expression::deepest)
-      fail(at_, fmt::format("more than {} values wait for each other", Expression::deepest));
+      fail(at_, fmt::format("more than {} values wait for each other", Expression::deepest), simpler);
     const auto arguments = std::span(program_).last(std::min(count, program_.size()));
     const bool known =
         count > 0 && arguments.size() == count &&
@@ -184,12 +186,13 @@ class Compiler {
     }
     program_.push_back({code, value});
     if (program_.size() > Expression::most_operations)
-      fail(at_, fmt::format("the expression has more than {} operations", Expression::most_operations));
+      fail(at_, fmt::format("the expression has more than {} operations", Expression::most_operations), simpler);
   }
 
   struct Depth {
     explicit Depth(Compiler& c) : compiler(c) {
-      if (++c.depth_ > Expression::deepest) c.fail(c.at_, fmt::format("nested more than {} deep", Expression::deepest));
+      if (++c.depth_ > Expression::deepest)
+        c.fail(c.at_, fmt::format("nested more than {} deep", Expression::deepest), simpler);
     }
     ~Depth() { --compiler.depth_; }
     Depth(const Depth&) = delete;
