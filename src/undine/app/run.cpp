@@ -215,11 +215,10 @@ class Run {
       steps.add(now, step_, step, store.range(Group::fluid).size(), store.range(Group::wall).size());
     }
     gauges_.sample(*flow_);
-    if (!due(output_.snapshots, before, now)) return;
+    const std::string name = snapshot_due(output_, before, now);
+    if (name.empty()) return;
     const auto watch = Clock::now();
     std::vector<std::int32_t> groups;
-    const std::string name =
-        fmt::format("particles_{:06}.vtkhdf", std::llround(std::floor(now / output_.snapshots + 1e-9)));
     write_snapshot(output_.folder / name, frame_of(*flow_, step_, output_.fields, groups));
     series.add(name, now);
     seconds_output_ += seconds_since(watch);

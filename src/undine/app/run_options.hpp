@@ -20,7 +20,14 @@ struct RunOptions {
 };
 
 /// Exit codes of the program.
-enum ExitCode : int { exit_ok = 0, exit_internal = 1, exit_input = 2, exit_run = 3, exit_interrupted = 130 };
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_internal = 1,
+  exit_input = 2,
+  exit_run = 3,
+  exit_missed = 4,  ///< verified, and a limit was missed
+  exit_interrupted = 130
+};
 
 /// Reads and checks a case with everything it names; prints what it resolved. Throws InputError.
 int check_case(const RunOptions& options);
