@@ -24,8 +24,8 @@ def ghia(component):
     found = {}
     for row in rows(os.path.join(REFERENCE, f"lid_driven_cavity_{component}.csv")):
         place = float(row["y" if component == "u" else "x"])
-        if row["ghia_recommended"] and 0 < place < 1:
-            found.setdefault(float(row["Re"]), []).append((place, float(row["ghia_recommended"])))
+        if row[component + "_ghia_recommended"] and 0 < place < 1:
+            found.setdefault(float(row["Re"]), []).append((place, float(row[component + "_ghia_recommended"])))
     return {reynolds: numpy.array(points).T for reynolds, points in found.items()}
 
 

@@ -27,7 +27,7 @@ def foam(program, folder):
 
 def version(folder):
     with open(os.path.join(folder, "icoFoam.log"), encoding="ascii", errors="replace") as log:
-        return re.search(r"Build\s*:\s*(\S+)", log.read()).group(1)
+        return re.search(r"OPENFOAM=(\d+)", log.read()).group(1)
 
 
 def last_time(folder):
