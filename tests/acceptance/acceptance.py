@@ -158,6 +158,49 @@ def ghosts_still_water(program, cases, folder):
     require(abs(force + weight) <= 0.01 * weight, f"mean force on the walls {force:.1f} N, weight {weight:.1f} N (limit 1 %)")
 
 
+def thin_jet(program, cases, folder):
+    """A sheet of water four particles thick falls on a floor and splashes, by the recommended scheme: no two particles nearer than 0.2 spacings,
+    audit residual at most 1 % of the energy at the start, nothing behind the floor. With tension and without separation pairs coincide."""
+    case = os.path.join(folder, "case.toml")
+    with open(case, "w", encoding="utf-8") as out:
+        out.write("""
+dimensions = 2
+spacing = "0.01 m"
+gravity = [0, -9.81]
+expected_speed = "3 m/s"
+domain = { low = [-2, -1], high = [2, 2] }
+scheme = { wall = { friction = false } }
+time = { end = "0.4 s" }
+[[fluid]]
+velocity = [0, -3]
+shape = { type = "box", low = [-0.02, 0.02], high = [0.02, 0.62] }
+[[wall]]
+name = "floor"
+shape = { type = "box", low = [-1.5, 0], high = [1.5, 1] }
+[[gauge]]
+name = "coincidence"
+type = "coincidence"
+every = "2 ms"
+[[gauge]]
+name = "leak"
+type = "leak"
+""")
+    closest = {}
+    for name, words in {"recommended": (), "before": ("--set", "scheme.pressure.separation=0", "--set", "fluid[0].eos.tension=true")}.items():
+        out = os.path.join(folder, name)
+        undine(program, "run", case, "--out", out, "--quiet", "--threads", "1", *words)
+        closest[name] = min(row["closest"] for row in read_csv(os.path.join(out, "gauges", "coincidence.csv")))
+    out = os.path.join(folder, "recommended")
+    rows = read_csv(os.path.join(out, "energies.csv"))
+    start = rows[0]["kinetic"] + rows[0]["potential"]
+    residual = max(abs(row["residual"]) for row in rows) / start
+    leaked = max(row["fraction"] for row in read_csv(os.path.join(out, "gauges", "leak.csv")))
+    require(closest["recommended"] >= 0.2, f"smallest distance {closest['recommended']:.3f} spacings (limit 0.2)")
+    require(closest["before"] < 0.1, f"with tension and without separation {closest['before']:.3f} spacings: the case shows the fault")
+    require(residual <= 0.01, f"largest audit residual {residual:.2e} of the energy at the start (limit 1e-2)")
+    require(leaked == 0, f"{leaked} of the fluid behind the floor")
+
+
 def vtk_reads_back(program, cases, folder):
     """VTK's own reader and h5py agree on every snapshot; the series names them all."""
     undine(program, "run", os.path.join(cases, "dam_break_2d.toml"), "--out", folder, "--quiet", "--set", "time.end=0.02 s", "--set",

@@ -263,7 +263,7 @@ def limits(program, cases, folder):
     os.rename(write_study(folder, cases, SPACING + LIMITS), os.path.join(studies, "mini.toml"))
     with open(os.path.join(studies, "without.toml"), "w", encoding="utf-8") as other:
         other.write(f'case = "{cases}/dam_break_2d.toml"\n')
-    table = json.loads(undine(program, "verify", "--files", studies, "--out", out, "--json", expect=4))
+    table = json.loads(undine(program, "verify", "--files", studies, "--out", out, "--json", expect=5))
     rows = {(row["metric"], row["bound"]): row for row in table}
     require(all(row["case"] == "mini" for row in table) and len(table) == 7, f"{len(table)} lines of the one study with limits")
     fronts = {name: float(row["front"]) for name, row in results(os.path.join(out, "mini")).items()}
@@ -278,7 +278,7 @@ def limits(program, cases, folder):
     order = [row for row in table if "observed order" in row["metric"]]
     require(len(order) == 1 and order[0]["limit"] is None and order[0]["pass"] is None and order[0]["value"] is not None, f"order: {order}")
     again = subprocess.run([program, "verify", "--files", studies, "--out", out], capture_output=True, text=True, check=False)
-    require(again.returncode == 4 and ": finished" not in again.stderr and "of 6 limits kept" in again.stdout, "a second call runs nothing")
+    require(again.returncode == 5 and ": finished" not in again.stderr and "of 6 limits kept" in again.stdout, "a second call runs nothing")
     require(again.stdout.count(" NO") == 2, "two limits are missed")
     quick = json.loads(undine(program, "verify", "mini", "--files", studies, "--out", out + "-quick", "--json", "--quick"))
     require([row["metric"] for row in quick] == ["ratio (dp 0.025)"], "--quick judges what is meant for it")
@@ -295,13 +295,13 @@ def verify_quick(program, _cases, folder):
     out = os.path.join(folder, "out")
     start = time.time()
     done = subprocess.run([program, "verify", "--quick", "--json", "--out", out], capture_output=True, text=True, timeout=550, check=False)
-    require(done.returncode in (0, 4), f"exit code {done.returncode}: {done.stderr[-500:]}")
+    require(done.returncode in (0, 5), f"exit code {done.returncode}: {done.stderr[-500:]}")
     table = json.loads(done.stdout)
     for row in table:
         require({"case", "metric", "value", "limit", "pass"} <= set(row) and row["value"] is not None,
                 f"{row['case']}: {row['metric']} = {row['value']}, limit {row['limit']}, {row['pass']}")
     missed = [row["case"] for row in table if row["pass"] is False]
-    require((done.returncode == 4) == bool(missed), f"{len(table)} lines, {len(missed)} limits missed, {time.time() - start:.0f} s")
+    require((done.returncode == 5) == bool(missed), f"{len(table)} lines, {len(missed)} limits missed, {time.time() - start:.0f} s")
 
 
 if __name__ == "__main__":

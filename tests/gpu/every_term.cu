@@ -7,8 +7,17 @@
 
 namespace undine::gpu {
 
+/// What the engine hands to a term: gradients by the supports of both particles where the term asks for them.
+template <class Term>
+inline constexpr bool takes_two = requires {
+  requires Term::needs_both_supports;
+};
 template <int N, class V, class Term>
-__global__ void one_pair(Term term, const typename Term::reads::template Row<N, V>* rows, const Pair<N, V>* pairs,
+using PairFor = std::conditional_t<takes_two<Term>, PairOfTwo<N, V>, Pair<N, V>>;
+
+template <int N, class V, class Term>
+__global__ void one_pair(Term term, const typename Term::reads::template Row<N, V>* rows,
+                         const PairFor<N, V, Term>* pairs,
                          typename Term::adds::template Row<N, V>* out) {
   const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
   const auto row = term(rows[0], rows[i], pairs[i]);
@@ -50,6 +59,12 @@ void every_one() {
   Every<terms::VelocityCorrections>::terms<N, V>();
   Every<terms::Sums>::terms<N, V>();
   Every<terms::Measures>::terms<N, V>();
+  Every<terms::GradHDensities>::terms<N, V>();
+  Every<terms::GasPressureForms>::terms<N, V>();
+  Every<terms::EnergyForms>::terms<N, V>();
+  Every<terms::GasViscosities>::terms<N, V>();
+  Every<terms::StressForms>::terms<N, V>();
+  Every<terms::Conductivities>::terms<N, V>();
   Every<Kernels>::kernels<N, V>();
 }
 

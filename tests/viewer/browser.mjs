@@ -16,7 +16,7 @@ export async function openBrowser(executablePath, more) {
     ...more,
   });
   const page = await context.newPage();
-  page.setDefaultTimeout(30_000);
+  page.setDefaultTimeout(150_000);  // drawing without a graphics card, on a machine that does other things too
   const complaints = [];
   // WebGL says how slow reading its pixels is; that is the screenshots' doing.
   const expected = /GPU stall|software WebGL/i;

@@ -18,6 +18,7 @@ import unittest
 import h5py
 import numpy
 
+import synthetic_run
 from page_data import Report
 
 UNDINE, RUNS, CHROMIUM = (sys.argv + [None])[1:4] if len(sys.argv) > 2 else (None, None, None)
@@ -111,23 +112,28 @@ class Data(unittest.TestCase):
 
     def test_small_pages_hold_a_sample_and_say_so(self):
         with tempfile.TemporaryDirectory() as folder:
-            out = os.path.join(folder, "small.html")
-            done = report(SPATIAL, "-o", out, "--max-mb", "1")
+            out, run = os.path.join(folder, "small.html"), os.path.join(folder, "run")
+            synthetic_run.write(run, 60_000, times=3)
+            done = report(run, "-o", out, "--max-mb", "1")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertLessEqual(os.path.getsize(out), 1e6)
             page = Report(out)
             particles = page.data["particles"]
             self.assertTrue(particles["rounded"])
             self.assertTrue(page.data["notes"])
-            for k, (path, _) in enumerate(snapshots(SPATIAL)):
+            self.assertLess(particles["shown"], particles["stored"])
+            self.assertGreater(os.path.getsize(out), 0.75e6, "the room is used")
+            for k, (path, _) in enumerate(snapshots(run)):
                 _, ids, fields = page.frame(k)
+                if k > 0:
+                    numpy.testing.assert_array_equal(ids, same, "the same particles at all times")
+                same = ids
                 want = stored(path)
                 place = numpy.searchsorted(want["id"], ids)
                 numpy.testing.assert_array_equal(want["id"][place], ids)
                 span = want["p"].max() - want["p"].min()
                 numpy.testing.assert_allclose(fields["p"][:, 0], want["p"][place], atol=span / 65534)
-            if particles["shown"] < particles["stored"]:
-                self.assertIn(f"{particles['shown']} of {particles['stored']} particles", "".join(page.data["notes"]))
+            self.assertIn(f"{particles['shown']} of {particles['stored']} particles", "".join(page.data["notes"]))
 
     def test_study_writes_what_its_members_lack_and_texts_stay_texts(self):
         done = report(STUDY)
@@ -186,7 +192,7 @@ class Browser(unittest.TestCase):
         path = os.path.join(cls.out, "plan.json")
         with open(path, "w", encoding="utf-8") as file:
             json.dump(plan, file)
-        done = subprocess.run(["node", os.path.join(HERE, "browser_test.mjs"), CHROMIUM, path, cls.out], capture_output=True, text=True, timeout=300, check=False)
+        done = subprocess.run(["node", os.path.join(HERE, "browser_test.mjs"), CHROMIUM, path, cls.out], capture_output=True, text=True, timeout=800, check=False)
         if done.returncode != 0:
             raise AssertionError(done.stdout + done.stderr)
         with open(os.path.join(cls.out, "readings.json"), encoding="utf-8") as file:

@@ -11,65 +11,22 @@ import http.client
 import json
 import os
 import random
-import re
 import shutil
-import signal
 import socket
 import subprocess
 import sys
 import time
 import unittest
-from urllib.parse import urlsplit
 
 import numpy
 
+import synthetic_run
 from page_data import Blocks
 from report_test import snapshots, stored
+from serving import Server
 
 UNDINE, RUNS, CHROMIUM = (sys.argv + [None])[1:4] if len(sys.argv) > 2 else (None, None, None)
 HERE = os.path.dirname(os.path.abspath(__file__))
-
-
-class Server:
-    """`undine view` on a folder, until stop()."""
-
-    def __init__(self, folder, *words):
-        self.process = subprocess.Popen([UNDINE, "view", folder, *words], stdout=subprocess.PIPE, text=True)
-        said = self.process.stdout.readline()
-        self.url = re.search(r"http://\S+/", said).group()
-        place = urlsplit(self.url)
-        self.port, self.path = place.port, place.path
-
-    def stop(self):
-        self.process.send_signal(signal.SIGINT)
-        self.process.wait(timeout=20)
-        self.process.stdout.close()
-
-    def get(self, path, method="GET", headers=None):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=30)
-        try:
-            connection.putrequest(method, path, skip_host=bool(headers and "Host" in headers))
-            for name, value in (headers or {}).items():
-                connection.putheader(name, value)
-            connection.endheaders()
-            response = connection.getresponse()
-            return response.status, response.read(), response
-        finally:
-            connection.close()
-
-    def json(self, name):
-        status, body, _ = self.get(self.path + name)
-        assert status == 200, (name, status, body[:200])
-        return json.loads(body)
-
-    def raw(self, data, wait=3):
-        """Sends bytes and returns what comes back, if anything does."""
-        with socket.create_connection(("127.0.0.1", self.port), timeout=wait) as link:
-            try:
-                link.sendall(data)
-                return link.recv(65536)
-            except OSError:
-                return b""
 
 
 class Serving(unittest.TestCase):
@@ -77,7 +34,7 @@ class Serving(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = os.path.join(RUNS, "spatial")
         cls.before = cls.listing()
-        cls.server = Server(cls.folder)
+        cls.server = Server(UNDINE, cls.folder)
 
     @classmethod
     def tearDownClass(cls):
@@ -161,31 +118,80 @@ class Serving(unittest.TestCase):
         if os.path.exists("/proc/net/tcp6"):
             with open("/proc/net/tcp6", encoding="ascii") as file:
                 self.assertEqual([line for line in file.readlines()[1:] if line.split()[1].endswith(":" + port)], [])
+        with self.assertRaises(ConnectionRefusedError):
+            socket.create_connection(("127.0.0.2", self.server.port), timeout=5)
+
+    def test_other_addresses_only_where_asked_for(self):
+        open_to_all = Server(UNDINE, self.folder, "--host", "0.0.0.0")
+        try:
+            for host in ("127.0.0.1", "127.0.0.2"):
+                for path, want in ((open_to_all.path + "state.json", 200), ("/state.json", 403), ("/" + "0" * 32 + "/state.json", 403)):
+                    link = http.client.HTTPConnection(host, open_to_all.port, timeout=10)
+                    link.request("GET", path)
+                    self.assertEqual(link.getresponse().status, want, (host, path))
+                    link.close()
+        finally:
+            open_to_all.stop()
 
     def test_huge_requests_do_no_harm(self):
-        for data in (b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"a" * 10_000_000 + b"\r\n\r\n", b"GET /" + b"a" * 1_000_000 + b" HTTP/1.1\r\n\r\n",
-                     b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 200_000 + b"\r\n", b"POST / HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n" + b"z" * 100_000):
-            self.server.raw(data)
+        before = self.server.largest_memory()
+        for data in (b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"a" * 50_000_000 + b"\r\n\r\n", b"GET /" + b"a" * 50_000_000 + b" HTTP/1.1\r\n\r\n",
+                     b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 2_000_000 + b"\r\n", b"POST / HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n" + b"z" * 1_000_000):
+            self.assertNotIn(b"200 OK", self.server.raw(data))
         self.alive()
+        self.assertLess(self.server.largest_memory() - before, 10, "nothing keeps 50 MB headers")
+
+    def test_packed_numbers_are_not_packed_again(self):
+        for name in ("", "data.json", "frame.json?number=0"):
+            status, _, response = self.server.get(self.server.path + name, headers={"Accept-Encoding": "gzip, deflate, br, zstd"})
+            self.assertEqual((status, response.headers["Content-Encoding"]), (200, None), name)
+
+    def test_what_follows_a_request_is_no_request(self):
+        head = f"Host: 127.0.0.1:{self.server.port}\r\n"
+        inner = f"GET {self.server.path}state.json HTTP/1.1\r\n{head}\r\n"
+        for length in (f"Content-Length: {len(inner)}", "Transfer-Encoding: chunked"):
+            answer = self.server.raw(f"POST {self.server.path} HTTP/1.1\r\n{head}{length}\r\n\r\n{inner}".encode())
+            self.assertIn(b"405", answer.split(b"\r\n")[0])
+            self.assertEqual(answer.count(b"HTTP/1.1 "), 1, answer)
+
+    def test_parts_of_an_answer_cannot_be_multiplied(self):
+        status, body, _ = self.server.get(self.server.path, headers={"Range": "bytes=" + ",".join(["0-"] * 500)})
+        self.assertEqual((status, len(body)), (200, len(self.server.get(self.server.path)[1])))
 
     def test_random_bytes_do_no_harm(self):
         chance = random.Random(5)
         start = f"GET {self.server.path}frame.json?number=0&most=50 HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\nConnection: close\r\n\r\n".encode()
-        for k in range(150):
-            data = bytearray(start if k % 2 else chance.randbytes(chance.randrange(1, 3000)))
+        wish = f"POST {self.server.path}control?wish=stop HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\nConnection: close\r\n\r\n".encode()
+        for k in range(300):
+            data = bytearray((start, wish, chance.randbytes(chance.randrange(1, 3000)))[k % 3])
             for _ in range(chance.randrange(1, 12)):
                 data[chance.randrange(len(data))] = chance.randrange(256)
             self.server.raw(bytes(data) + b"\r\n\r\n", wait=0.3)
         self.alive()
 
-    def test_slow_and_many_clients_do_no_harm(self):
+    def test_slow_and_many_clients_keep_nobody_waiting(self):
         links = []
         try:
             for k in range(200):
                 link = socket.create_connection(("127.0.0.1", self.server.port), timeout=10)
                 links.append(link)
                 if k % 2:
-                    link.sendall(b"GET / HT")
+                    link.sendall(b"GET / HTTP/1.1\r\nX: ")
+            start = time.monotonic()
+            for _ in range(5):
+                self.alive()
+                time.sleep(0.1)
+            self.assertLess(time.monotonic() - start, 4, "200 clients that say nothing, or nothing more, hold nobody up")
+            # Bytes that trickle in do not keep a request alive: after its five seconds it is cut off.
+            held = links[1::2]
+            while held and time.monotonic() - start < 20:
+                for link in list(held):
+                    try:
+                        link.sendall(b"a")
+                    except OSError:
+                        held.remove(link)
+                time.sleep(0.5)
+            self.assertEqual(len(held), 0, "clients that trickle are cut off")
         finally:
             for link in links:
                 link.close()
@@ -206,31 +212,36 @@ class Browser(unittest.TestCase):
         os.makedirs(out, exist_ok=True)
         shutil.rmtree(live, ignore_errors=True)
         case = os.path.join(HERE, "..", "..", "cases", "dam_break_2d.toml")
-        running = subprocess.Popen([UNDINE, "run", case, "--out", live, "--threads", "1", "--quiet", "--set", "spacing=0.02", "--set", "time.end=1000",
+        running = subprocess.Popen([UNDINE, "run", case, "--out", live, "--threads", "1", "--quiet", "--control", "--set", "spacing=0.02", "--set", "time.end=1000",
                                     "--set", "output.snapshots=0.01", "--set", "output.energies=0.005"])
         servers = []
         try:
             while not os.path.exists(os.path.join(live, "particles.vtkhdf.series")):
                 self.assertIsNone(running.poll())
                 time.sleep(0.1)
-            servers = [Server(os.path.join(RUNS, "flat")), Server(live, "--follow")]
+            large = os.path.join(RUNS, "large")
+            many = 300_000
+            synthetic_run.write(large, many)
+            servers = [Server(UNDINE, os.path.join(RUNS, "flat")), Server(UNDINE, live, "--follow"), Server(UNDINE, large)]
             path, at = snapshots(os.path.join(RUNS, "flat"))[-1]
             want = stored(path)
             row = int(numpy.flatnonzero(want["group"] == 0)[17])
             plan = os.path.join(out, "view_plan.json")
             with open(plan, "w", encoding="utf-8") as file:
-                json.dump({"finished": servers[0].url, "running": servers[1].url, "last": at, "id": int(want["id"][row])}, file)
-            done = subprocess.run(["node", os.path.join(HERE, "view_test.mjs"), CHROMIUM, plan, out], capture_output=True, text=True, timeout=200, check=False)
+                json.dump({"finished": servers[0].url, "running": servers[1].url, "large": servers[2].url, "many": many, "last": at, "id": int(want["id"][row])}, file)
+            done = subprocess.run(["node", os.path.join(HERE, "view_test.mjs"), CHROMIUM, plan, out], capture_output=True, text=True, timeout=800, check=False)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertIsNone(running.poll(), "closing the browser leaves the run alone")
+            self.assertEqual(running.wait(timeout=60), 130)
             with open(os.path.join(out, "view_readings.json"), encoding="utf-8") as file:
                 readings = json.load(file)
             self.assertEqual(numpy.float32(readings["pressure"][0]), want["p"][row])
         finally:
             for server in servers:
                 server.stop()
-            running.send_signal(signal.SIGINT)
-            running.wait(timeout=60)
+            if running.poll() is None:
+                running.kill()
+                running.wait()
+            shutil.rmtree(os.path.join(RUNS, "large"), ignore_errors=True)
 
 
 if __name__ == "__main__":

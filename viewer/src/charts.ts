@@ -92,10 +92,12 @@ export class Chart {
         ...lines.map((line, k): uPlot.Series => {
           const stroke = css(colours[(line.colour ?? k) % colours.length]);
           const dots = line.style === "dots";
+          const many = line.values.length > 300;  // dots would run into a band
+          const hollow = (line.colour ?? k) >= colours.length;  // a colour that is there already
           return {
             label: axisText(line.name, line.unit), stroke, width: dots ? 0 : 1.5, spanGaps: true,
             dash: line.style === "dashed" ? [6, 4] : undefined,
-            points: { show: dots ? true : undefined, size: dots ? 5 : undefined, fill: stroke, stroke },
+            points: { show: dots ? true : undefined, size: dots ? (many ? 2.5 : 6) : undefined, fill: hollow ? css("--paper") : stroke, stroke },
             paths: dots ? () => null : undefined,
             value: (_, value) => (y.texts && value !== null ? (y.texts[value] ?? "") : number(value, 5)),
           };

@@ -171,13 +171,18 @@ export interface Progress {
   step: number;
   rate: number;
   remaining_s: number;
+  paused?: boolean;
 }
 
 export interface State {
   status: string;
   times: number[];
   progress: Progress | null;
+  /** Whether this page may pause and stop the run. */
+  control: boolean;
 }
+
+export type Wish = "run" | "pause" | "stop";
 
 export interface Live {
   /** Whether the page goes on to each new snapshot. */
@@ -185,6 +190,7 @@ export interface Live {
   /** Particles of a frame at most. */
   most: number;
   state(): Promise<State>;
+  wish(word: Wish): Promise<void>;
 }
 
 function bytesOf(base64: string): Uint8Array {

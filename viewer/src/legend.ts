@@ -10,9 +10,9 @@ export interface LegendState {
   high: number;
 }
 
-const ticks = 5;
+const mostTicks = 5;
 
-function tickText(state: LegendState, k: number): string {
+function tickText(state: LegendState, k: number, ticks = mostTicks): string {
   const value = state.low + ((state.high - state.low) * k) / (ticks - 1);
   const digits = k === 0 || k === ticks - 1 ? 4 : 3;
   return number(Math.abs(value) < 1e-9 * Math.max(Math.abs(state.low), Math.abs(state.high)) ? 0 : value, digits);
@@ -37,7 +37,7 @@ export class Legend {
     const bar = h("canvas", { width: 512, height: 1, "aria-hidden": "true" });
     drawBar(bar.getContext("2d")!, state.map, 0, 0, 512, 1);
     const labels = h("div", { class: "ticks" });
-    for (let k = 0; k < ticks; ++k) labels.append(h("span", { class: k === 0 ? "low" : k === ticks - 1 ? "high" : "" }, tickText(state, k)));
+    for (let k = 0; k < mostTicks; ++k) labels.append(h("span", { class: k === 0 ? "low" : k === mostTicks - 1 ? "high" : "" }, tickText(state, k)));
     this.element.replaceChildren(h("div", { class: "heading" }, heading(state)), bar, labels);
     this.element.dataset.low = String(state.low);
     this.element.dataset.high = String(state.high);
@@ -54,9 +54,12 @@ export class Legend {
     context.fillText(heading(state), x, y - 44);
     drawBar(context, state.map, x, y - 36, width, 14);
     context.fillStyle = ink;
+    // Fewer numbers where five would run into each other.
+    const needed = (ticks: number) => Array.from({ length: ticks }, (_, k) => context.measureText(tickText(state, k, ticks)).width + 10).reduce((a, b) => Math.max(a, b)) * ticks;
+    const ticks = [mostTicks, 3].find((count) => needed(count) < width) ?? 2;
     for (let k = 0; k < ticks; ++k) {
       context.textAlign = k === 0 ? "left" : k === ticks - 1 ? "right" : "center";
-      context.fillText(tickText(state, k), x + (width * k) / (ticks - 1), y - 4);
+      context.fillText(tickText(state, k, ticks), x + (width * k) / (ticks - 1), y - 4);
     }
   }
 }

@@ -217,6 +217,7 @@ export class ParticlePanel {
     this.slider.setAttribute("aria-valuetext", text);
     this.clock.textContent = `${text}, step ${frame.info.step}`;
     this.clock.dataset.time = String(frame.info.time);
+    this.stage.dataset.count = String(frame.count);
     this.onTime(frame.info.time);
     this.recolour();
     await this.describeValues();

@@ -1,5 +1,5 @@
 // Data that `undine view` sends when asked: all series at once, particles one time after the other.
-import { decode, type BlockInfo, type FrameInfo, type Live, type Numbers, type PageData, type Particles, type Source, type State } from "./data";
+import { decode, type BlockInfo, type FrameInfo, type Live, type Numbers, type PageData, type Particles, type Source, type State, type Wish } from "./data";
 
 interface Answer {
   blocks: BlockInfo[];
@@ -7,6 +7,12 @@ interface Answer {
 }
 
 const framesKept = 12;
+
+async function answered(asked: Promise<Response>): Promise<Response> {
+  const answer = await asked;
+  if (!answer.ok) throw new Error(`${answer.status}: ${(await answer.text()).trim()}`);
+  return answer;
+}
 
 export class RemoteSource implements Source {
   readonly live: Live;
@@ -21,13 +27,15 @@ export class RemoteSource implements Source {
 
   constructor() {
     const { follow } = JSON.parse(document.getElementById("undine-live")!.textContent!) as { follow: boolean };
-    this.live = { follow, most: 200_000, state: () => this.ask<State>("state.json") };
+    this.live = { follow, most: 200_000, state: () => this.ask<State>("state.json"), wish: (word) => this.wish(word) };
   }
 
   private async ask<T>(path: string): Promise<T> {
-    const answer = await fetch(path);
-    if (!answer.ok) throw new Error(`${answer.status}: ${(await answer.text()).trim()}`);
-    return (await answer.json()) as T;
+    return (await (await answered(fetch(path))).json()) as T;
+  }
+
+  private async wish(word: Wish): Promise<void> {
+    await answered(fetch(`control?wish=${word}`, { method: "POST" }));
   }
 
   /** Keeps the blocks of an answer, and returns the number of its first one. */

@@ -1,5 +1,6 @@
 // The page of one run.
 import { aligned, Chart } from "./charts";
+import { RunControl } from "./control";
 import type { ColumnInfo, Gauge, Live, RunData, Source, State } from "./data";
 import { duration, h, number, unitText, withUnit } from "./dom";
 import { ParticlePanel } from "./panel";
@@ -96,16 +97,16 @@ async function gaugeCharts(gauge: Gauge, source: Source, onClick: (x: number) =>
   const byUnit = new Map<string, ColumnInfo[]>();
   for (const info of gauge.columns.slice(1)) byUnit.set(info.unit, [...(byUnit.get(info.unit) ?? []), info]);
   for (const [unit, columns] of byUnit) {
-    const all = [];
-    for (const info of columns) all.push({ name: info.name, unit, x: time, y: Array.from(await source.block(info.block), finite), style: "line" as const });
+    const lines: { name: string; unit: string; x: number[]; y: (number | null)[]; style: "line" | "dots"; colour: number }[] = [];
     const reference = gauge.reference && columns.some((info) => info.name === gauge.reference!.column) ? gauge.reference : null;
-    const lines: { name: string; unit: string; x: number[]; y: (number | null)[]; style: "line" | "dots" }[] = [...all];
-    if (reference) lines.push({ name: `${reference.column}, reference`, unit, x: Array.from(await source.block(reference.times)), y: Array.from(await source.block(reference.values), finite), style: "dots" });
+    // The reference first, so that it does not cover ours.
+    if (reference) lines.push({ name: `${reference.column}, reference`, unit, x: Array.from(await source.block(reference.times)), y: Array.from(await source.block(reference.values), finite), style: "dots", colour: columns.length });
+    for (const [k, info] of columns.entries()) lines.push({ name: info.name, unit, x: time, y: Array.from(await source.block(info.block), finite), style: "line", colour: k });
     const { x, ys } = aligned(lines);
     charts.push(new Chart({
       title: columns.length === 1 ? `${gauge.name}: ${columns[0].name}` : gauge.name,
       x: { name: "time", unit: "s", values: x }, y: { name: columns.map((info) => info.name).join(", "), unit },
-      lines: lines.map((line, k) => ({ name: line.name, unit, values: ys[k], style: line.style, colour: k })), onClick,
+      lines: lines.map((line, k) => ({ name: line.name, unit, values: ys[k], style: line.style, colour: line.colour })), onClick,
     }));
   }
   return charts;
@@ -135,8 +136,9 @@ function progressText(state: State): string {
   const progress = state.progress;
   if (!progress) return state.status;
   const rate = `${number(progress.rate / 1e6, 3)} M particle updates/s`;
-  const rest = state.status === "running" ? `, ${duration(progress.remaining_s)} to go` : "";
-  return `${state.status}: t = ${number(progress.time, 5)} of ${number(progress.end)} s, step ${progress.step}, ${rate}${rest}`;
+  const paused = state.status === "running" && progress.paused;
+  const rest = state.status === "running" && !paused ? `, ${duration(progress.remaining_s)} to go` : "";
+  return `${paused ? "paused" : state.status}: t = ${number(progress.time, 5)} of ${number(progress.end)} s, step ${progress.step}, ${rate}${rest}`;
 }
 
 /** All charts of a run, in sections. */
@@ -167,17 +169,22 @@ class Charts {
 }
 
 /** Asks every second how far the run is, and shows it: at once where it ended, else as its files grow. */
-function follow(live: Live, line: HTMLElement, panel: ParticlePanel | null, reload: () => Promise<void>): void {
-  let polls = 0, status = "", known = 0;
+function follow(live: Live, line: HTMLElement, control: RunControl, panel: ParticlePanel | null, reload: () => Promise<void>): void {
+  let polls = 0, status = "", known = 0, shownStep = -1;
   const ask = async () => {
     try {
       const state = await live.state();
       line.textContent = progressText(state);
+      control.update(state);
       if (!panel && state.times.length > 0) return location.reload();
       panel?.extend(state.times);
       if (live.follow && state.times.length > known) panel?.showLast();
       known = state.times.length;
-      if (state.status !== status || polls++ % 5 === 4) await reload();
+      const step = state.progress?.step ?? 0;
+      if (state.status !== status || (polls++ % 5 === 4 && step !== shownStep)) {
+        await reload();
+        shownStep = step;
+      }
       status = state.status;
       if (status !== "running") return;
     } catch (error) {
@@ -192,8 +199,9 @@ export async function runPage(page: HTMLElement, data: RunData, source: Source):
   document.title = `${data.title} · Undine`;
   const head = h("div", {}, summary(data));
   page.replaceChildren(h("header", {}, h("h1", {}, data.title), head));
-  const line = h("p", { class: "note progress", role: "status" });
-  if (source.live) page.append(line);
+  const line = h("p", { class: "note progress" });  // changes every second: not to be read out
+  const control = source.live ? new RunControl(source.live) : null;
+  if (control) page.append(line, control.element);
   for (const warning of data.run.warnings ?? []) page.append(h("p", { class: "note warning" }, warning));
   for (const note of data.notes) page.append(h("p", { class: "note" }, note));
   const panel = data.particles && data.particles.frames.length > 0 ? new ParticlePanel(data, source) : null;
@@ -202,7 +210,7 @@ export async function runPage(page: HTMLElement, data: RunData, source: Source):
   await charts.fill(data);
   page.append(charts.element, caseSection(data));
   if (panel) panel.onTime = (time) => charts.setMark(time);
-  if (source.live) follow(source.live, line, panel, async () => {
+  if (source.live && control) follow(source.live, line, control, panel, async () => {
     const newer = (await source.data()) as RunData;
     head.replaceChildren(summary(newer));
     await charts.fill(newer);

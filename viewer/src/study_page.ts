@@ -52,24 +52,27 @@ function quantityCell(member: Member, name: string, unit: string): Node {
   return beside(member, name, h("span", {}, number(value) + (unit && typeof value === "number" ? ` ${unitText(unit)}` : "")));
 }
 
-function linked(member: Member, content: Node | string): Node {
-  return member.report ? h("a", { href: member.report }, content) : typeof content === "string" ? document.createTextNode(content) : content;
+/** Every cell leads to its member's report; by Tab only the first of a row does, or else there would be hundreds of stops. */
+function linked(member: Member, content: Node | string, tab = false): Node {
+  if (member.report) return h("a", { href: member.report, tabindex: tab ? undefined : -1 }, content);
+  return typeof content === "string" ? document.createTextNode(content) : content;
 }
 
 function memberTable(study: Study): HTMLElement {
   const axes = study.axes.map((axis) => axis.name);
-  const heads = ["member", ...axes, "status", "particles", "steps", "wall time", ...study.quantities.map((q) => q.name), ...study.verdicts.map((v) => v.name)];
+  const heads = ["member", ...axes, ...study.verdicts.map((v) => v.name), "status", ...study.quantities.map((q) => q.name), "particles", "steps", "wall time"];
+  const whole = (value: number | null | undefined) => (value === null || value === undefined ? "–" : String(value));
   const rows = study.members.map((member) => [
-    linked(member, member.name),
-    ...axes.map((axis) => linked(member, typeof member.axes[axis] === "number" ? number(member.axes[axis] as number) : String(member.axes[axis] ?? "–"))),
-    h("span", { title: member.error ?? "" }, member.error ? `${member.status}: ${member.error}` : member.status),
-    member.particles === null || member.particles === undefined ? "–" : String(member.particles),
-    member.steps === null || member.steps === undefined ? "–" : String(member.steps),
-    member.seconds === null || member.seconds === undefined ? "–" : duration(member.seconds),
-    ...study.quantities.map((q) => linked(member, quantityCell(member, q.name, q.unit ?? ""))),
-    ...study.verdicts.map((v) => linked(member, beside(member, v.name, verdictCell(member.verdicts[v.name])))),
+    linked(member, member.name, true),
+    ...[
+      ...axes.map((axis) => (typeof member.axes[axis] === "number" ? number(member.axes[axis] as number) : String(member.axes[axis] ?? "–"))),
+      ...study.verdicts.map((v) => beside(member, v.name, verdictCell(member.verdicts[v.name]))),
+      h("span", { title: member.error ?? "" }, member.status),
+      ...study.quantities.map((q) => quantityCell(member, q.name, q.unit ?? "")),
+      whole(member.particles), whole(member.steps), member.seconds === null || member.seconds === undefined ? "–" : duration(member.seconds),
+    ].map((content) => linked(member, content)),
   ]);
-  return table(heads, rows, 2 + axes.length);
+  return table(heads, rows, 2 + axes.length + study.verdicts.length);
 }
 
 const groupName = (member: Member, axes: string[]) => axes.map((axis) => `${axis} = ${String(member.axes[axis])}`).join(", ");
@@ -109,7 +112,7 @@ function plot(title: string, study: Study, axis: string, quantity: string, x: { 
   const unit = study.quantities.find((q) => q.name === quantity)?.unit;
   const lines: { line: Omit<Line, "values">; x: number[]; y: number[] }[] = [];
   groups.forEach((group, k) => {
-    lines.push({ line: { name: group.name || quantity, unit, style: withOrders ? "dots" : "dots", colour: k }, x: group.x, y: group.y });
+    lines.push({ line: { name: group.name || quantity, unit, style: "dots", colour: k }, x: group.x, y: group.y });
     const order = withOrders && log ? orderOf(study, quantity, axis, group.members, group.name) : undefined;
     if (!order || group.x.length < 2) return;
     // The line of that order through the middle of the points, both logarithmic.
@@ -168,6 +171,8 @@ export async function studyPage(page: HTMLElement, data: StudyData, _: Source): 
   for (const part of [plots(study), orders(study)]) if (part) page.append(part);
   if (meanings.length) page.append(h("section", {}, h("h2", {}, "Quantities"), table(["quantity", "unit", "meaning"], meanings, 3)));
   if (rules.length) page.append(h("section", {}, h("h2", {}, "Verdicts"), table(["verdict", "rule"], rules, 2)));
+  const errors = study.members.filter((member) => member.error).map((member) => [member.name, member.error!]);
+  if (errors.length) page.append(h("section", { id: "errors" }, h("h2", {}, "What went wrong"), table(["member", "error"], errors, 2)));
   const reasons = study.members.flatMap((member) => (member.reasons ?? []).map((reason) => [member.name, reason]));
   if (reasons.length) page.append(h("section", {}, h("h2", {}, "Where we differ from what was published"), table(["member", "reason"], reasons, 2)));
   page.dataset.ready = "true";

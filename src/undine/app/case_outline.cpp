@@ -23,7 +23,7 @@ CaseOutline outline(const Document& document, const RunOptions& options) {
   CaseOutline result{.hash = {},
                      .dimensions = N,
                      .spacing = setup.spacing,
-                     .support = setup.options.support.uniform,
+                     .support = setup.options().support.uniform,
                      .end = setup.choice.end,
                      .fluid = static_cast<double>(setup.store.range(Group::fluid).size()),
                      .wall = static_cast<double>(setup.store.range(Group::wall).size()),
@@ -31,10 +31,10 @@ CaseOutline outline(const Document& document, const RunOptions& options) {
                      .warnings = setup.warnings};
   result.series.emplace_back("energies", energy_columns());
   double sound_speed = 0;
-  for (const auto& material : setup.options.materials)
+  for (const auto& material : setup.options().materials)
     sound_speed = std::max(sound_speed, material.sound_speed(material.rho_0));
   const StepLimits& limits = setup.choice.limits;
-  const double h = setup.options.support.uniform / setup.options.support.kappa;
+  const double h = setup.options().support.uniform / setup.options().support.kappa;
   result.step = limits.fixed > 0 ? limits.fixed
                                  : std::min(limits.largest, limits.courant * h / (sound_speed + setup.expected_speed));
   Hash64 hash;

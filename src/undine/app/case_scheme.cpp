@@ -4,34 +4,17 @@
 
 #include <fmt/format.h>
 
+#include "undine/app/case_scheme_parts.hpp"
 #include "undine/app/parameters.hpp"
 #include "undine/core/error.hpp"
 #include "undine/integrators/catalogue.hpp"
-#include "undine/schemes/presets.hpp"
 
 namespace undine {
 namespace {
 
-/// The word chosen for `form`, out of the names of a list and further words.
-template <class List>
-std::string read_form(const Table& table, std::string_view fallback, std::vector<std::string> more = {}) {
-  auto names = List::names();
-  names.insert(names.end(), more.begin(), more.end());
-  return table.choice("form", names, std::string(fallback));
-}
-
-/// A choice out of a list of terms with its parameters, or nothing for "none".
-template <class List>
-std::optional<OneOf<List>> read_optional(const Table& table, std::string_view fallback, OneOf<List> choice = {}) {
-  const std::string form = read_form<List>(table, fallback, {"none"});
-  if (form == "none") return {};
-  choice.choose(List::index_of(form));
-  choice.with_chosen([&](auto& term) { read_parameters(table, term); });
-  return choice;
-}
-
 template <int N>
-void read_smoothing(const Table& scheme, double spacing, double preset_ratio, WeaklyCompressibleOptions<N>& options) {
+void read_smoothing(const Table& scheme, double spacing, double preset_ratio, const SmoothingWords& words,
+                    FlowOptions<N>& options) {
   const Table table = scheme.table("smoothing");
   auto& support = options.support;
   // A kernel whose natural kappa is 1 leaves h = H: viscosity and step limits then see the whole support.
@@ -52,16 +35,17 @@ void read_smoothing(const Table& scheme, double spacing, double preset_ratio, We
                    "H = {:.4g} m, spacing = {:.4g} m; below 1.2 a particle has no neighbours, above 8 it has thousands",
                    support.uniform, spacing),
                "choose support between 2 and 4 spacings (h_over_spacing about 1.0 to 2.0)");
-  options.rho_law = table.choice("law", {"constant", "density"}, "constant") == "density";
-  const std::vector<std::string> means{"arithmetic", "geometric", "max", "min"};
-  support.mean =
-      static_cast<Symmetrisation>(std::ranges::find(means, table.choice("mean", means, "arithmetic")) - means.begin());
+  const auto chosen = [&](const char* key, const std::vector<std::string>& all, std::string_view fallback) {
+    return std::ranges::find(all, table.choice(key, all, std::string(fallback))) - all.begin();
+  };
+  options.smoothing = static_cast<SmoothingLaw>(chosen("law", words.laws, words.law));
+  support.mean = static_cast<Symmetrisation>(chosen("mean", words.means, "arithmetic"));
 }
 
 /// The instruction set of the pair loops. Another number of lanes rounds differently, so a run that is to be the same
 /// bits on another machine names one that both have.
 template <int N>
-void read_instructions(const Table& scheme, WeaklyCompressibleOptions<N>& options) {
+void read_instructions(const Table& scheme, FlowOptions<N>& options) {
   std::vector<std::string> names{"auto"};
   names.insert(names.end(), instruction_set_names.begin(), instruction_set_names.end());
   const auto chosen = std::ranges::find(names, scheme.choice("instructions", names, "auto")) - names.begin();
@@ -76,7 +60,7 @@ void read_instructions(const Table& scheme, WeaklyCompressibleOptions<N>& option
 }
 
 template <int N>
-void read_backend(const Table& scheme, WeaklyCompressibleOptions<N>& options) {
+void read_backend(const Table& scheme, FlowOptions<N>& options) {
   const std::vector<std::string> kinds(backend_names.begin(), backend_names.end());
   const std::vector<std::string> precisions(precision_names.begin(), precision_names.end());
   options.backend.kind =
@@ -123,15 +107,12 @@ void read_slip(const Table& wall, WeaklyCompressibleOptions<N>& options) {
 }
 
 template <int N, class Preset>
-SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressibleOptions<N>& options, Preset) {
+SchemeChoice read_liquid(const Table& root, double spacing, WeaklyCompressibleOptions<N>& options, Preset) {
   SchemeChoice choice;
   const Table scheme = root.table("scheme");
-  const std::string kernel = scheme.choice("kernel", Kernels::names(), std::string(Preset::kernel));
-  const char* roles[] = {"density_kernel", "pressure_kernel", "viscosity_kernel"};
-  for (int role = 0; role < kernel_roles; ++role)
-    options.kernels[role] = KernelChoice(Kernels::index_of(scheme.choice(roles[role], Kernels::names(), kernel)));
-  read_smoothing(scheme, spacing, Preset::support_over_spacing, options);
-  read_backend(scheme, options);
+  constexpr PresetBasics basics = basics_of<Preset>();
+  read_basics<N>(scheme, spacing, basics,
+                 {{"constant", "density"}, {"arithmetic", "geometric", "max", "min"}, "constant"}, options);
 
   const std::string density = read_form<terms::ContinuityForms>(scheme.table("density"), Preset::density,
                                                                 {"summation", "normalised_summation"});
@@ -141,6 +122,8 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   options.continuity.choose(std::max(0, terms::ContinuityForms::index_of(density)));
   options.pressure.choose(
       terms::PressureForms::index_of(read_form<terms::PressureForms>(scheme.table("pressure"), Preset::pressure)));
+  choice.separation = Preset::separation;
+  choice.reach = Preset::reach;
   options.viscosity = read_optional<terms::ViscosityForms>(scheme.table("viscosity"), Preset::viscosity);
   options.diffusion = read_optional<terms::DiffusionForms>(scheme.table("density_diffusion"), Preset::diffusion);
   terms::ViscosityMonaghan artificial;
@@ -155,12 +138,33 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
           : XsphTarget::position;
   options.strain_dissipation = root.table("output").flag("strain_dissipation", false);
 
+  read_walls<N>(scheme, basics, options, choice);
+  read_slip(scheme.table("wall"), options);
+  read_time(root, basics, choice);
+  return choice;
+}
+
+}  // namespace
+
+template <int N>
+void read_basics(const Table& scheme, double spacing, const PresetBasics& preset, const SmoothingWords& words,
+                 FlowOptions<N>& options) {
+  const std::string kernel = scheme.choice("kernel", Kernels::names(), std::string(preset.kernel));
+  const char* roles[] = {"density_kernel", "pressure_kernel", "viscosity_kernel"};
+  for (int role = 0; role < kernel_roles; ++role)
+    options.kernels[role] = KernelChoice(Kernels::index_of(scheme.choice(roles[role], Kernels::names(), kernel)));
+  read_smoothing(scheme, spacing, preset.support_over_spacing, words, options);
+  read_backend(scheme, options);
+}
+
+template <int N>
+void read_walls(const Table& scheme, const PresetBasics& preset, FlowOptions<N>& options, SchemeChoice& choice) {
   const Table wall = scheme.table("wall");
-  const std::string treatment = wall.choice("treatment", walls::Walls::names(), std::string(Preset::wall));
+  const std::string treatment = wall.choice("treatment", walls::Walls::names(), std::string(preset.wall));
   walls::Walls::visit(walls::Walls::index_of(treatment), [&]<class W>(W) {
     options.wall_density = W::density;
     choice.wall_force = walls::force_of<W>();
-    choice.reflects = wall.flag("guard", W::reflects || Preset::guard);
+    choice.reflects = wall.flag("guard", W::reflects || preset.guard);
     if constexpr (requires { W::slip; }) choice.ghosts = W::slip;
   });
   if (choice.ghosts) {
@@ -171,47 +175,79 @@ SchemeChoice read_with_preset(const Table& root, double spacing, WeaklyCompressi
   }
   const bool repels = choice.wall_force == walls::WallForce::repulsion;
   choice.wall_particles = (options.wall_density != walls::WallDensity::none && !choice.ghosts) || repels;
-  options.wall_pulls = wall.flag("pulls", Preset::wall_pulls);
-  read_slip(wall, options);
+  options.wall_pulls = wall.flag("pulls", preset.wall_pulls);
   choice.restitution = wall.in_range("restitution", unit::one, {0, 1}, 1.0);
-  const std::int64_t layers = wall.integer("layers", repels ? 1 : Preset::wall_layers);
+  const std::int64_t layers = wall.integer("layers", repels ? 1 : preset.wall_layers);
   if (layers < 0 || layers > 100)
     wall.fail("layers", fmt::format("a wall cannot have {} layers", layers), {},
               "give 1 to 100, or 0 for as many as the support needs");
   choice.wall_layers = static_cast<int>(layers);
   if (options.wall_density == walls::WallDensity::modified) {
-    choice.wall_reference = wall.choice("reference", {"auto", "rho_0", "given"}, std::string(Preset::wall_reference));
+    choice.wall_reference = wall.choice("reference", {"auto", "rho_0", "given"}, std::string(preset.wall_reference));
     if (choice.wall_reference == "given")
       choice.wall_reference_density = wall.positive("reference_density", unit::density);
   }
+}
 
+void read_time(const Table& root, const PresetBasics& preset, SchemeChoice& choice) {
   const Table time = root.table("time");
   choice.end = time.positive("end", unit::time);
-  choice.integrator = time.choice("integrator", integrators::Integrators::names(), std::string(Preset::integrator));
-  if (time.has("step") || (Preset::fixed_step > 0 && !time.has("courant"))) {
-    choice.limits.fixed = time.positive("step", unit::time, Preset::fixed_step);
+  choice.integrator = time.choice("integrator", integrators::Integrators::names(), std::string(preset.integrator));
+  integrators::Integrators::visit(integrators::Integrators::index_of(choice.integrator), [&]<class I>(I) {
+    if constexpr (requires { I::adapts; }) {
+      if (!time.has("step")) choice.tolerance = time.positive("tolerance", unit::one, 1e-5);
+    }
+  });
+  if (time.has("step") || (preset.fixed_step > 0 && !time.has("courant"))) {
+    choice.limits.fixed = time.positive("step", unit::time, preset.fixed_step);
   } else {
     choice.limits.courant = time.positive("courant", unit::one, choice.limits.courant);
     choice.limits.force = time.positive("force", unit::one, choice.limits.force);
     choice.limits.viscous = time.positive("viscous", unit::one, choice.limits.viscous);
     choice.limits.largest = time.positive("largest_step", unit::time, choice.end);
   }
-  return choice;
 }
 
-}  // namespace
-
 template <int N>
-SchemeChoice read_scheme(const Table& root, double spacing, WeaklyCompressibleOptions<N>& options) {
+SchemeChoice read_scheme(const Table& root, double spacing, SchemeOptions<N>& options) {
   const Table scheme = root.table("scheme");
   const int preset = presets::Presets::index_of(scheme.choice("name", presets::Presets::names(), "recommended"));
-  SchemeChoice choice =
-      presets::Presets::visit(preset, [&](auto p) { return read_with_preset(root, spacing, options, p); });
+  SchemeChoice choice = presets::Presets::visit(preset, [&]<class Preset>(Preset p) {
+    if constexpr (requires { Preset::is_gas; }) {
+      return read_gas<N>(root, spacing, options.template emplace<GasOptions<N>>(), p);
+    } else {
+      return read_liquid<N>(root, spacing, options.template emplace<WeaklyCompressibleOptions<N>>(), p);
+    }
+  });
   choice.preset = preset;
   std::vector<double> none(N, 0.0);
   choice.gravity = root.quantities("gravity", unit::acceleration, N, none);
-  for (int k = 0; k < N; ++k) options.gravity[k] = choice.gravity[k];
+  std::visit(
+      [&](FlowOptions<N>& common) {
+        for (int k = 0; k < N; ++k) common.gravity[k] = choice.gravity[k];
+      },
+      options);
   return choice;
+}
+
+template <int N>
+std::string describe_terms(const SchemeOptions<N>& options) {
+  const auto if_any = [](const char* what, const auto& term) {
+    return term ? fmt::format(", {} {}", what, term->info().name) : std::string();
+  };
+  if (const auto* gas = std::get_if<GasOptions<N>>(&options)) {
+    const char* densities[] = {"by continuity", "summed", "summed and normalised", "and support by each other"};
+    return fmt::format("density {}, pressure {}, energy {}{}{}{}{}", densities[static_cast<int>(gas->density)],
+                       gas->pressure.info().name, gas->energy.info().name,
+                       if_any("artificial viscosity", gas->artificial),
+                       gas->switches() ? fmt::format(" ({})", gas->viscosity_switch.info().name) : "",
+                       gas->conductivity ? ", conductivity" : "", if_any("viscosity", gas->stress));
+  }
+  const auto& liquid = std::get<WeaklyCompressibleOptions<N>>(options);
+  return fmt::format("pressure {}, {}{}{}{}{}", liquid.pressure.info().name,
+                     liquid.density == DensityForm::evolved ? liquid.continuity.info().name : "summation",
+                     if_any("viscosity", liquid.viscosity), if_any("artificial viscosity", liquid.artificial),
+                     if_any("diffusion", liquid.diffusion), liquid.xsph ? ", XSPH" : "");
 }
 
 materials::Material read_material(const Table& table, const SchemeChoice& choice, double expected_speed,
@@ -220,7 +256,7 @@ materials::Material read_material(const Table& table, const SchemeChoice& choice
   material.name = table.text("name", "water");
   material.rho_0 = table.positive("density", unit::density, 1000.0);
   const bool saalfeld = choice.preset == presets::Presets::index<presets::Saalfeld>();
-  material.mu = table.non_negative("viscosity", unit::dynamic_viscosity, saalfeld ? 1.52e-3 : 1e-3);
+  material.mu = table.non_negative("viscosity", unit::dynamic_viscosity, choice.is_gas ? 0 : saalfeld ? 1.52e-3 : 1e-3);
 
   const Table eos = table.table("eos");
   const auto fallback = presets::Presets::visit(choice.preset, [](auto p) { return decltype(p)::eos; });
@@ -232,8 +268,15 @@ materials::Material read_material(const Table& table, const SchemeChoice& choice
     read_parameters(eos, law);
     material.eos = law;
   });
+  presets::Presets::visit(choice.preset, [&]<class Preset>(Preset) {
+    if constexpr (requires { Preset::tension; }) {
+      // Without gravity nothing presses a liquid together: a closed flow needs its tension.
+      const bool falls = std::ranges::any_of(choice.gravity, [](double g) { return g != 0; });
+      material.tension = eos.flag("tension", Preset::tension || !falls);
+    }
+  });
   const double c = material.sound_speed(material.rho_0);
-  if (c < 9.999 * expected_speed)
+  if (!choice.is_gas && c < 9.999 * expected_speed)
     warnings.push_back(
         fmt::format("{}: the speed of sound of '{}' is {:.4g} m/s, only {:.2g} times the expected velocity of {:.4g} "
                     "m/s; density will "
@@ -242,8 +285,17 @@ materials::Material read_material(const Table& table, const SchemeChoice& choice
   return material;
 }
 
-template SchemeChoice read_scheme<1>(const Table&, double, WeaklyCompressibleOptions<1>&);
-template SchemeChoice read_scheme<2>(const Table&, double, WeaklyCompressibleOptions<2>&);
-template SchemeChoice read_scheme<3>(const Table&, double, WeaklyCompressibleOptions<3>&);
+template SchemeChoice read_scheme<1>(const Table&, double, SchemeOptions<1>&);
+template std::string describe_terms<1>(const SchemeOptions<1>&);
+template void read_basics<1>(const Table&, double, const PresetBasics&, const SmoothingWords&, FlowOptions<1>&);
+template void read_walls<1>(const Table&, const PresetBasics&, FlowOptions<1>&, SchemeChoice&);
+template SchemeChoice read_scheme<2>(const Table&, double, SchemeOptions<2>&);
+template std::string describe_terms<2>(const SchemeOptions<2>&);
+template void read_basics<2>(const Table&, double, const PresetBasics&, const SmoothingWords&, FlowOptions<2>&);
+template void read_walls<2>(const Table&, const PresetBasics&, FlowOptions<2>&, SchemeChoice&);
+template SchemeChoice read_scheme<3>(const Table&, double, SchemeOptions<3>&);
+template std::string describe_terms<3>(const SchemeOptions<3>&);
+template void read_basics<3>(const Table&, double, const PresetBasics&, const SmoothingWords&, FlowOptions<3>&);
+template void read_walls<3>(const Table&, const PresetBasics&, FlowOptions<3>&, SchemeChoice&);
 
 }  // namespace undine

@@ -33,6 +33,7 @@ struct Body {
   bool may_coincide = true;  ///< points that a lattice laid are apart from each other
   int motion = -1;           ///< of a wall: its number in WallPlan::motions
   std::shared_ptr<ReflectingSurface> surface = {};  ///< of a wall with a shape: that alone
+  double coarser = 1;                               ///< spacing of a fluid's lattice over the case's
 };
 
 constexpr std::int64_t most_layers = 100;  ///< of a wall
@@ -46,7 +47,7 @@ class Reader {
   CaseSetup<N> read() {
     setup_.title = root_.text("title", "");
     setup_.spacing = root_.positive("spacing", unit::length);
-    setup_.choice = read_scheme<N>(root_, setup_.spacing, setup_.options);
+    setup_.choice = read_scheme<N>(root_, setup_.spacing, setup_.scheme);
     const auto fluids = root_.tables("fluid");
     if (fluids.empty())
       throw InputError({.what = "the case has no fluid",
@@ -66,6 +67,7 @@ class Reader {
     plan_walls();
     connect_distance();
     connect_reflector();
+    connect_domain();
     connect_ghosts();
     setup_.walls = walls_;
     return std::move(setup_);
@@ -107,17 +109,24 @@ class Reader {
               table};
     if (table.has("particles")) {
       take_list(body);
-      unused(table, {"shape", "lattice", "anchor", "jitter", "seed"});
+      unused(table, {"shape", "lattice", "anchor", "jitter", "seed", "spacing"});
     } else {
       const Lattice lattice =
           table.choice("lattice", {"cubic", "hexagonal"}, "cubic") == "cubic" ? Lattice::cubic : Lattice::hexagonal;
-      LatticeSpec spec{setup_.spacing, N, lattice, {}};
+      const double spacing = table.positive("spacing", unit::length, setup_.spacing);
+      if (spacing < setup_.spacing * (1 - 1e-9))
+        table.fail("spacing",
+                   fmt::format("a spacing of {:.4g} m is finer than the case's {:.4g} m", spacing, setup_.spacing),
+                   "particles are checked, and walls laid, with the case's",
+                   "let 'spacing' at the top be that of the finest fluid");
+      body.coarser = spacing / setup_.spacing;
+      LatticeSpec spec{spacing, N, lattice, {}};
       if (table.has("anchor")) spec.anchor = read_point(table, "anchor", N);
       const ShapePtr shape = read_shape(table.table("shape"), N);
       check_size(table, *shape);
       body.points = with_place(table, [&] { return fill_lattice(*shape, spec); });
       body.may_coincide = false;
-      const double jitter = table.in_range("jitter", unit::one, {0, 0.5}, 0.0) * setup_.spacing;
+      const double jitter = table.in_range("jitter", unit::one, {0, 0.5}, 0.0) * spacing;
       if (jitter > 0) {
         shake(body.points, jitter, static_cast<std::uint64_t>(table.integer("seed", 1)));
         body.may_coincide = true;
@@ -125,10 +134,11 @@ class Reader {
       unused(table, {"seed"});
     }
     if (body.points.empty())
-      throw InputError({.what = fmt::format("fluid '{}' has no particles", body.name),
-                        .where = table.where(),
-                        .why = fmt::format("no lattice point of spacing {:.4g} m lies in its shape", setup_.spacing),
-                        .fix = "make the shape larger or the spacing smaller"});
+      throw InputError(
+          {.what = fmt::format("fluid '{}' has no particles", body.name),
+           .where = table.where(),
+           .why = fmt::format("no lattice point of spacing {:.4g} m lies in its shape", setup_.spacing * body.coarser),
+           .fix = "make the shape larger or the spacing smaller"});
     check_room(table, static_cast<double>(body.points.size()), setup_.spacing);
     bodies_.push_back(std::move(body));
   }
@@ -157,7 +167,7 @@ class Reader {
   }
 
   int layers_needed() const {
-    return static_cast<int>(std::ceil(setup_.options.support.uniform / setup_.spacing - 1e-9));
+    return static_cast<int>(std::ceil(setup_.options().support.uniform / setup_.spacing - 1e-9));
   }
 
   void read_wall(const Table& table) {
@@ -172,7 +182,7 @@ class Reader {
     const bool pushes = setup_.choice.wall_force == walls::WallForce::distance;
     ShapePtr shape;
     if (!has_list || shape_table.exists()) shape = read_shape(shape_table, N);
-    if (!shape && (pushes || setup_.options.wall_density == walls::WallDensity::mirrored))
+    if (!shape && (pushes || setup_.options().wall_density == walls::WallDensity::mirrored))
       table.fail("particles", "this wall has no shape", "its treatment needs to know where the surface is",
                  "add the shape on whose surface the particles lie, or choose another treatment");
     std::vector<PlacedSurface> placed;
@@ -224,8 +234,8 @@ class Reader {
   int read_motion(const Table& table, const std::vector<PlacedSurface>& placed) {
     auto motion = read_wall_motion<N>(table, setup_.choice, placed, fastest_wall_);
     if (!motion) return -1;
-    setup_.options.walls.motions.push_back(std::move(*motion));
-    return static_cast<int>(setup_.options.walls.motions.size()) - 1;
+    setup_.options().walls.motions.push_back(std::move(*motion));
+    return static_cast<int>(setup_.options().walls.motions.size()) - 1;
   }
 
   std::vector<Vec3> wall_points(const Table& table, const Shape& shape, Side fluid_side, const FaceSet& open) {
@@ -250,7 +260,7 @@ class Reader {
           "layers", fmt::format("a wall of {} layer{} is thinner than the support", layers, layers == 1 ? "" : "s"),
           fmt::format(
               "the support radius {:.4g} m spans {} spacings of {:.4g} m; fluid would feel what is behind the wall",
-              setup_.options.support.uniform, needed, setup_.spacing),
+              setup_.options().support.uniform, needed, setup_.spacing),
           fmt::format("set layers = {}, leave it out, or say thin = true if this is meant", needed));
     const Side wall_side = fluid_side == Side::inside ? Side::outside : Side::inside;
     check_size(table, shape, layers, wall_side);
@@ -269,7 +279,7 @@ class Reader {
     // Fluid on the lattice begins half a spacing from the surface, where it is to feel nothing.
     repulsion.r_0 = (shifted() ? 1 : 0.5) * setup_.spacing;
     read_parameters(table, repulsion);
-    const double H = setup_.options.support.uniform;
+    const double H = setup_.options().support.uniform;
     if (!(repulsion.r_0 > 0 && repulsion.r_0 <= H))
       table.fail("r_0", fmt::format("walls cannot repel from {:.4g} m", repulsion.r_0),
                  fmt::format("neighbours are known up to the support radius H = {:.4g} m only", H),
@@ -281,7 +291,25 @@ class Reader {
     if (!(repulsion.p1 > repulsion.p2))
       table.fail("p1", fmt::format("p1 = {} is not larger than p2 = {}", repulsion.p1, repulsion.p2),
                  "walls would attract", "take 12 and 6, 4 and 2, or 9.5 and 4");
-    setup_.options.repulsion = repulsion;
+    setup_.options().repulsion = repulsion;
+  }
+
+  /// What keeps pairs apart, if the pressure form has it: it is to stop two particles that meet at the expected speed.
+  void read_separation() {
+    auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup_.scheme);
+    if (!liquid) return;
+    liquid->pressure.with_chosen([&](auto& form) {
+      if constexpr (requires { form.separation; }) {
+        const Table table = root_.table("scheme").table("pressure");
+        form.separation = setup_.choice.separation * sq(setup_.expected_speed);
+        form.reach = setup_.choice.reach * setup_.spacing;
+        read_parameters(table, form);
+        if (!(form.reach > 0 && form.reach <= liquid->support.uniform))
+          table.fail("reach", fmt::format("pairs cannot be kept {:.4g} m apart", form.reach),
+                     "it is a distance above zero, and neighbours are known up to the support radius only",
+                     fmt::format("take about half a spacing, {:.4g} m", 0.5 * setup_.spacing));
+      }
+    });
   }
 
   void check_names() {
@@ -357,7 +385,7 @@ class Reader {
       for (const auto& p : body.points) all.include(p);
     if (!setup_.container.empty()) all.include(setup_.container);
     const Table table = root_.table("domain");
-    double extent = setup_.options.support.uniform;  // some room even around a single point
+    double extent = setup_.options().support.uniform;  // some room even around a single point
     for (int k = 0; k < N; ++k)
       if (std::isfinite(all.hi[k] - all.lo[k])) extent = std::max(extent, all.hi[k] - all.lo[k]);
     std::vector<double> low, high;
@@ -381,18 +409,20 @@ class Reader {
       domain.periodic[k] = std::ranges::count(periodic, axes[k]) > 0;
       if (!(high[k] > low[k]))
         table.fail("high", fmt::format("the domain is empty along {}", axes[k]), {}, "make high larger than low");
-      if (domain.periodic[k] && setup_.options.gravity[k] != 0)
+      if (domain.periodic[k] && setup_.options().gravity[k] != 0)
         root_.fail("gravity",
                    fmt::format("gravity acts along {}, where space repeats", axes[static_cast<std::size_t>(k)]),
                    "a height has no end there, so that the energy audit could not close", "use body_force instead");
-      const double reach = setup_.options.support.uniform * (1 + setup_.options.neighbours.skin);
+      const double reach = setup_.options().support.uniform * (1 + setup_.options().neighbours.skin);
       if (domain.periodic[k] && domain.length(k) < 2 * reach)
         table.fail(
             "high", fmt::format("the period along {} is {:.4g} m", axes[k], domain.length(k)),
             fmt::format("a particle would see its own image: twice the support with skin is {:.4g} m", 2 * reach),
             "widen the domain or lessen the support");
     }
-    setup_.options.lets_escape = table.choice("on_escape", {"stop", "remove"}, "stop") == "remove";
+    const std::string on_escape = table.choice("on_escape", {"stop", "remove", "reflect"}, "stop");
+    setup_.options().lets_escape = on_escape == "remove";
+    domain_reflects_ = on_escape == "reflect";
     for (const auto& body : bodies_)
       for (const auto& p : body.points)
         if (!domain.contains(narrow<N>(p)))
@@ -404,7 +434,7 @@ class Reader {
 
   /// The speed that gravity can give over the fluid's height, or the initial speed; sets the default speed of sound.
   void read_materials(const std::vector<Table>& fluids) {
-    const auto& g = setup_.options.gravity;
+    const auto& g = setup_.options().gravity;
     double lowest = 1e300, highest = -1e300, speed = 0;
     for (const auto& body : bodies_)
       for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -424,9 +454,10 @@ class Reader {
                                            fastest_wall_, speed),
                         .fix = fmt::format("set expected_speed, such as {:.4g} (m/s)", fastest_wall_)});
     setup_.expected_speed = root_.positive("expected_speed", unit::velocity, std::max(speed, 1e-6));
+    read_separation();
     if (setup_.choice.wall_force == walls::WallForce::repulsion) read_repulsion();
     for (const Table& table : fluids)
-      setup_.options.materials.push_back(read_material(table, setup_.choice, setup_.expected_speed, setup_.warnings));
+      setup_.options().materials.push_back(read_material(table, setup_.choice, setup_.expected_speed, setup_.warnings));
     refuse_diffusion_of_fluids();
     // E_pot counts from the lowest place that fluid or wall reaches.
     const double g_sq = norm_sq(g);
@@ -435,8 +466,9 @@ class Reader {
 
   /// Density diffusion knows one density at rest: between fluids of two it would take away what tells them apart.
   void refuse_diffusion_of_fluids() const {
-    const auto& materials = setup_.options.materials;
-    if (!setup_.options.diffusion) return;
+    const auto& materials = setup_.options().materials;
+    const auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup_.scheme);
+    if (!liquid || !liquid->diffusion) return;
     for (const auto& material : materials)
       if (material.rho_0 != materials.front().rho_0)
         root_.table("scheme").fail("density_diffusion",
@@ -475,9 +507,10 @@ class Reader {
 
   void fill_store() {
     auto& store = setup_.store;
-    const auto& options = setup_.options;
+    const auto& options = setup_.options();
     store.allocate(Fields<field::x, field::v, field::rho, field::h, field::m, field::rho_0, field::rho_wall, field::mu,
                           field::x_list>::set());
+    if (setup_.choice.is_gas) store.allocate(Fields<field::e, field::alpha_v>::set());
     for (const Group group : all_groups)  // ids follow the order of bodies within each group
       for (std::size_t b = 0; b < bodies_.size(); ++b) {
         Body& body = bodies_[b];
@@ -485,7 +518,7 @@ class Reader {
         const auto& material = options.materials[body.material];
         const std::size_t at = store.append(group, body.points.size(), body.material);
         double volume = 1;
-        for (int k = 0; k < N; ++k) volume *= setup_.spacing;
+        for (int k = 0; k < N; ++k) volume *= setup_.spacing * body.coarser;
         const double mass = body.table.positive("particle_mass", unit::mass, material.rho_0 * volume);
         const auto pressure = initial_pressure(body, material);
         for (std::size_t i = 0; i < body.points.size(); ++i) {
@@ -499,17 +532,33 @@ class Reader {
           };
           const double p = pressure(body.points[i]);
           if (!std::isfinite(p)) not_finite(body.table, "pressure", "pressure", body.points[i]);
-          const double density = material.density(p);
+          const bool thermal = setup_.choice.is_gas && material.is_thermal();
+          const double density = thermal ? material.rho_0 : material.density(p);
           if (!std::isfinite(density) || density <= 0)
             body.table.fail("pressure", fmt::format("no density belongs to a pressure of {:.4g} Pa", p),
                             "the equation of state cannot be that low", "raise the pressure or the speed of sound");
           store.template get<field::rho>()[s] = given("rho", density);
           store.template get<field::m>()[s] = given("m", mass);
-          store.template get<field::h>()[s] = options.support.uniform;
+          store.template get<field::h>()[s] = options.support.uniform * body.coarser;
           store.template get<field::rho_0>()[s] = material.rho_0;
           store.template get<field::mu>()[s] = material.mu;
+          if (setup_.choice.is_gas) start_gas(body, s, p, material);
         }
       }
+  }
+
+  /// Internal energy, and what the law for H takes as reference: the state at the start.
+  void start_gas(const Body& body, std::size_t i, double pressure, const materials::Material& material) {
+    auto& store = setup_.store;
+    const double density = store.template get<field::rho>()[i];
+    const double energy = material.internal_energy(density, pressure);
+    if (body.group == Group::fluid && !(energy >= 0))
+      body.table.fail("pressure", fmt::format("no internal energy belongs to a pressure of {:.4g} Pa", pressure),
+                      "it would be negative", "raise the pressure");
+    store.template get<field::e>()[i] = energy;
+    store.template get<field::alpha_v>()[i] = setup_.choice.alpha_at_start;
+    // H = H_0 (rho_0/rho)^(1/N) takes one H_0 for all.
+    store.template get<field::rho_0>()[i] = density * std::pow(body.coarser, N);
   }
 
   /// Initial pressure as a function of position: a formula, the hydrostatic start, or zero.
@@ -517,7 +566,7 @@ class Reader {
     if (body.group == Group::wall) return [rest = material.pressure(material.rho_0)](const Vec3&) { return rest; };
     if (body.table.has("surface")) {
       const double surface = body.table.quantity("surface", unit::length);
-      const Vec<N> g = setup_.options.gravity;
+      const Vec<N> g = setup_.options().gravity;
       const double strength = norm(g);
       if (strength == 0)
         body.table.fail("surface", "a hydrostatic start needs gravity", {}, "set gravity or leave 'surface' out");
@@ -540,7 +589,7 @@ class Reader {
         if (!std::isfinite(formulas[k](p[0], p[1], p[2], 0)))
           not_finite(root_, "body_force", fmt::format("body_force[{}]", k), p);
     }
-    setup_.options.body_force = [formulas](const Vec<N>& x, double t) {
+    setup_.options().body_force = [formulas](const Vec<N>& x, double t) {
       const Vec3 p = widen<N>(x);
       Vec<N> a;
       for (int k = 0; k < N; ++k) a[k] = formulas[k](p[0], p[1], p[2], t);
@@ -554,18 +603,19 @@ class Reader {
     auto& store = setup_.store;
     const IndexRange walls = store.range(Group::wall), fluid = store.range(Group::fluid);
     const auto x = store.template get<field::x>();
-    const double H = setup_.options.support.uniform, strength = norm(setup_.options.gravity);
+    const double H = setup_.options().support.uniform, strength = norm(setup_.options().gravity);
     CellGrid<N> near_fluid, near_wall;
     near_fluid.build(x.subspan(fluid.begin, fluid.size()), H, setup_.domain);
     near_wall.build(x.subspan(walls.begin, walls.size()), H, setup_.domain);
     const double lattice = sum_over_lattice();
     std::vector<std::uint32_t> found;
     for (std::size_t i = walls.begin; i < walls.end; ++i) {
-      const auto& material = setup_.options.materials[store.materials()[i]];
+      const auto& material = setup_.options().materials[store.materials()[i]];
       near_fluid.find(x[i], H, found);
       double rest = material.rho_0;
       if (!found.empty() && std::isfinite(surface))
-        rest = material.density(material.rho_0 * std::max(0.0, strength * surface + dot(setup_.options.gravity, x[i])));
+        rest =
+            material.density(material.rho_0 * std::max(0.0, strength * surface + dot(setup_.options().gravity, x[i])));
       const Body& body = bodies_[static_cast<std::size_t>(setup_.body_of_id[i])];
       if (!body.given.contains("rho")) store.template get<field::rho>()[i] = rest;
       near_wall.find(x[i], H, found);
@@ -581,8 +631,8 @@ class Reader {
   }
 
   double kernel(const Vec<N>& d) const {
-    const double H = setup_.options.support.uniform;
-    return setup_.options.kernels[static_cast<int>(KernelRole::density)].template w<N>(norm(d) / H) / std::pow(H, N);
+    const double H = setup_.options().support.uniform;
+    return setup_.options().kernels[static_cast<int>(KernelRole::density)].template w<N>(norm(d) / H) / std::pow(H, N);
   }
 
   double wall_sum(std::size_t i, const std::vector<std::uint32_t>& neighbours) const {
@@ -598,7 +648,7 @@ class Reader {
   /// sum of V W over an endless lattice of the case's spacing: 1 but for the kernel's discretisation error.
   double sum_over_lattice() const {
     const double dp = setup_.spacing;
-    const int reach = static_cast<int>(std::ceil(setup_.options.support.uniform / dp));
+    const int reach = static_cast<int>(std::ceil(setup_.options().support.uniform / dp));
     double sum = 0;
     Vec<N, int> cell;
     for (int k = 0; k < N; ++k) cell[k] = -reach;
@@ -624,9 +674,9 @@ class Reader {
 
   /// What the scheme is told of walls beyond their particles, which have their ids in the order of the store here.
   void plan_walls() {
-    auto& plan = setup_.options.walls;
+    auto& plan = setup_.options().walls;
     const IndexRange walls = setup_.store.range(Group::wall);
-    const bool mirrors = setup_.options.wall_density == walls::WallDensity::mirrored;
+    const bool mirrors = setup_.options().wall_density == walls::WallDensity::mirrored;
     if (!plan.moves() && !mirrors) return;
     plan.first_id = static_cast<std::int64_t>(walls.begin);
     const auto x = setup_.store.template get<field::x>();
@@ -649,15 +699,35 @@ class Reader {
     if (setup_.choice.wall_force != walls::WallForce::distance) return;
     const Table table = root_.table("scheme").table("wall");
     const double distance = table.positive("distance", unit::length, 0.5 * setup_.spacing);
-    setup_.options.pushed_out = [surface = pushing_, distance](const Vec<N>& x) -> Vec<N> {
+    setup_.options().pushed_out = [surface = pushing_, distance](const Vec<N>& x) -> Vec<N> {
       return narrow<N>(surface->pushed_out(widen<N>(x), distance));
+    };
+  }
+
+  /// Fluid that would leave the domain comes back as from a wall; at corners along each axis.
+  static Bounce<N> kept_inside(const Domain<N>& domain, Bounce<N> bounce) {
+    for (int k = 0; k < N; ++k) {
+      if (domain.periodic[k] || !std::isfinite(bounce.x[k])) continue;
+      if (bounce.x[k] >= domain.low[k] && bounce.x[k] <= domain.high[k]) continue;
+      const double face = bounce.x[k] < domain.low[k] ? domain.low[k] : domain.high[k];
+      bounce.x[k] = std::clamp(2 * face - bounce.x[k], domain.low[k], domain.high[k]);
+      bounce.v[k] = -bounce.v[k];
+    }
+    return bounce;
+  }
+
+  void connect_domain() {
+    if (!domain_reflects_) return;
+    setup_.options().reflector = [walls = setup_.options().reflector, domain = setup_.domain](
+                                     const Vec<N>& from, const Vec<N>& to, const Vec<N>& v) -> Bounce<N> {
+      return kept_inside(domain, walls ? walls(from, to, v) : Bounce<N>{to, v});
     };
   }
 
   void connect_reflector() {
     if (surface_->empty()) return;
-    setup_.options.reflector = [surface = surface_](const Vec<N>& from, const Vec<N>& to,
-                                                    const Vec<N>& v) -> Bounce<N> {
+    setup_.options().reflector = [surface = surface_](const Vec<N>& from, const Vec<N>& to,
+                                                      const Vec<N>& v) -> Bounce<N> {
       const Vec3 a = widen<N>(from), b = widen<N>(to);
       if (surface->clear(a, b)) return {to, v};
       const Reflection r = surface->reflect(a, b, widen<N>(v));
@@ -677,9 +747,12 @@ class Reader {
   }
 
   void connect_ghosts() {
-    auto& options = setup_.options;
+    auto& options = setup_.options();
     if (!setup_.choice.ghosts) return;
-    const double reach = options.support.uniform * (1 + options.neighbours.skin);
+    double largest = options.support.uniform;
+    for (const Body& body : bodies_) largest = std::max(largest, options.support.uniform * body.coarser);
+    options.mirrored_support = largest * setup_.choice.support_growth;
+    const double reach = options.mirrored_support * (1 + options.neighbours.skin);
     options.mirrors = ghosts_.mirrors(*setup_.choice.ghosts, reach, setup_.domain);
   }
 
@@ -691,6 +764,7 @@ class Reader {
   std::shared_ptr<ReflectingSurface> surface_ = std::make_shared<ReflectingSurface>();  ///< what reflects
   std::shared_ptr<ReflectingSurface> walls_ = std::make_shared<ReflectingSurface>();    ///< every wall
   std::shared_ptr<ReflectingSurface> pushing_ = std::make_shared<ReflectingSurface>();
+  bool domain_reflects_ = false;
   double fastest_wall_ = 0;  ///< m/s, until time.end
   std::size_t fluids_ = 0, walls_read_ = 0;
 };

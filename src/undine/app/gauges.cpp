@@ -163,7 +163,7 @@ void GaugeSet<N>::resume(const fs::path& folder, double last_time) {
 }
 
 template <int N>
-void GaugeSet<N>::sample(WeaklyCompressible<N>& flow) {
+void GaugeSet<N>::sample(Flow<N>& flow) {
   const double time = flow.time();
   bool forces_known = false;
   for (Entry& entry : entries_) {

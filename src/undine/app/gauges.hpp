@@ -28,7 +28,7 @@ class GaugeSet {
 
   /// Writes a row for each gauge that is due: at the first time at or after each multiple of its `every`, 0 included.
   /// Call it after each step. Throws Error, and InputError if a gauge cannot work in this run.
-  void sample(WeaklyCompressible<N>& flow);
+  void sample(Flow<N>& flow);
 
   /// Compares what the files hold with the reference data of those gauges that have some.
   std::vector<Comparison> compare() const;

@@ -9,6 +9,7 @@
 
 #include "undine/analysis/exact/catalogue.hpp"
 #include "undine/app/gauges.hpp"
+#include "undine/app/watchdog/causes/catalogue.hpp"
 #include "undine/approximation/catalogue.hpp"
 #include "undine/backend/backend.hpp"
 #include "undine/core/error.hpp"
@@ -148,6 +149,13 @@ std::vector<Axis> make_axes() {
       axis_of<terms::ArtificialViscosities>("artificial_viscosity", "Artificial viscosities"),
       axis_of<terms::DiffusionForms>("density_diffusion", "Density diffusion"),
       axis_of<terms::VelocityCorrections>("velocity_correction", "Corrections of the velocity that moves particles"),
+      axis_of<terms::GradHDensities>("gas_density", "Densities of gases that determine the support radius, and by it"),
+      axis_of<terms::GasPressureForms>("gas_pressure", "Forms of the pressure force of gases"),
+      axis_of<terms::EnergyForms>("energy", "Work of pressure on the internal energy of gases"),
+      axis_of<terms::GasViscosities>("gas_viscosity", "Artificial viscosities of gases, with their heat"),
+      axis_of<terms::ViscositySwitches>("viscosity_switch", "Switches of the artificial viscosity of gases"),
+      axis_of<terms::StressForms>("stress", "Forms of the viscous stress of gases, with its heat"),
+      axis_of<terms::Conductivities>("conductivity", "Artificial conductivities of gases"),
       axis_of<terms::Sums>("sums", "Sums that densities are made of"),
       axis_of<terms::Measures>("measures", "What a run measures with: gradients, and the approach speed for the step"),
       axis_of<materials::EquationsOfState>("equations_of_state", "Equations of state"),
@@ -160,6 +168,7 @@ std::vector<Axis> make_axes() {
       axis_of_words("precisions", "Number types of the pair arithmetic", precision_names, precision_titles),
       axis_of_infos("gauges", "Instruments that record a run", gauge_infos()),
       axis_of<exact::ExactSolutions>("exact", "Exact solutions, for `undine exact` and the gauge `error`"),
+      axis_of<causes::Causes>("causes", "Why runs go bad, in the order in which the watchdog asks"),
       axis_of_infos("fields", "Quantities of a particle", all_fields),
   };
 }

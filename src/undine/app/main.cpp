@@ -62,7 +62,9 @@ int execute(int argc, char** argv) {
   app.set_version_flag("--version", std::string(program_version()));
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 4 verified and a limit was missed, 130 "
+      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 4 output could not be written, 5 "
+      "verified and "
+      "a limit was missed, 130 "
       "interrupted (checkpoint written).");
 
   RunOptions run_options;
@@ -71,6 +73,8 @@ int execute(int argc, char** argv) {
   add_case_options(*run, run_options);
   run->add_flag("--resume", run_options.resume, "go on from the newest checkpoint of the output folder");
   run->add_flag("--overwrite", run_options.overwrite, "replace an earlier run in the output folder");
+  run->add_flag("--control", run_options.control,
+                "let `undine view` pause and stop it, and whoever writes DIR/control");
   run->add_flag("!--no-report", run_options.report, "write no report.html at the end");
   run->add_flag("--quiet", quiet, "print errors only");
   run->add_flag("--json", json, "progress as one JSON object per line");
@@ -190,7 +194,7 @@ int main(int argc, char** argv) {
     return exit_run;
   } catch (const Error& error) {
     fmt::print(stderr, "error: {}\n", error.what());
-    return exit_input;
+    return exit_output;
   } catch (const std::exception& error) {
     fmt::print(stderr, "internal error: {}\n", error.what());
     return exit_internal;

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view axes = "xyz";
+constexpr std::size_t bins = 4096;  ///< to find values of a rank
 
 /// What people say for the fields that they look at most.
 const std::map<std::string, std::string, std::less<>> plain_names{
@@ -157,18 +158,38 @@ std::vector<double> scalar_values(const OwnedColumn& column, int part) {
 
 FluidRange fluid_range(const std::vector<double>& values, const std::vector<char>& walls) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> kept;
-  kept.reserve(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!walls[i] && std::isfinite(values[i])) kept.push_back(values[i]);
-  if (kept.empty()) return {infinity, -infinity, infinity, -infinity};
-  const std::size_t last = kept.size() - 1, lower = last / 100, upper = last - lower;
-  const auto nth = [&](std::size_t n) {
-    std::ranges::nth_element(kept, kept.begin() + static_cast<std::ptrdiff_t>(n));
-    return kept[n];
+  const auto counts = [&](std::size_t i) { return !walls[i] && std::isfinite(values[i]); };
+  double low = infinity, high = -infinity;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!counts(i)) continue;
+    low = std::min(low, values[i]);
+    high = std::max(high, values[i]);
+    ++count;
+  }
+  if (!(low < high)) return {low, high, low, high};
+
+  // The values of a rank, of millions: counted by bins first, then looked for in one bin.
+  const double scale = bins / (high - low);
+  const auto bin_of = [&](double value) {
+    const double place = (value - low) * scale;
+    return place < bins ? static_cast<std::size_t>(place) : bins - 1;
   };
-  const auto [low, high] = std::ranges::minmax(kept);
-  return {low, high, nth(lower), nth(upper)};
+  std::vector<std::size_t> sizes(bins, 0);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (counts(i)) ++sizes[bin_of(values[i])];
+  const auto ranked = [&](std::size_t rank) {
+    std::size_t bin = 0;
+    for (; rank >= sizes[bin]; ++bin) rank -= sizes[bin];
+    std::vector<double> inside;
+    inside.reserve(sizes[bin]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (counts(i) && bin_of(values[i]) == bin) inside.push_back(values[i]);
+    std::ranges::nth_element(inside, inside.begin() + static_cast<std::ptrdiff_t>(rank));
+    return inside[rank];
+  };
+  const std::size_t last = count - 1, lower = last / 100;
+  return {low, high, ranked(lower), ranked(last - lower)};
 }
 
 std::vector<char> walls_of(const OwnedFrame& frame) {

@@ -15,7 +15,8 @@ struct RunOptions {
   int threads = 0;                ///< 0: as many as there are cores
   bool resume = false;
   bool overwrite = false;
-  bool report = true;  ///< whether a page that shows the run is written at its end, if the case wants one
+  bool control = false;  ///< whether others may pause and stop it
+  bool report = true;    ///< whether a page that shows the run is written at its end, if the case wants one
   Verbosity verbosity = Verbosity::normal;
 };
 
@@ -25,7 +26,8 @@ enum ExitCode : int {
   exit_internal = 1,
   exit_input = 2,
   exit_run = 3,
-  exit_missed = 4,  ///< verified, and a limit was missed
+  exit_output = 4,
+  exit_missed = 5,  ///< verified, and a limit was missed
   exit_interrupted = 130
 };
 

@@ -8,14 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "undine/core/error.hpp"
-#include "undine/io/checksum.hpp"
-
 namespace undine {
 namespace {
 
 const std::vector<std::string> energy_comments{
-    "kinetic, potential, elastic: energies of the fluid; the next columns: what each term took out of them since t = 0",
+    "kinetic, potential, elastic: energies of the fluid, elastic the internal energy of a gas; the next columns: what "
+    "each "
+    "term took out of them since t = 0",
     "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching "
     "compression;",
     "walls: given to walls; xsph: moved against gravity by XSPH; body: given to imposed fields",
@@ -37,18 +36,6 @@ std::vector<std::string> step_comments() {
 }
 
 }  // namespace
-
-std::string case_hash(const Document& document) {
-  Hash64 hash;
-  for (const auto& [key, value] : document.resolved()) {
-    if (key.starts_with("output") || key.starts_with("gauge") || key == "time.end" || key == "time.largest_step" ||
-        key == "title")
-      continue;
-    const std::string line = key + "=" + value + "\n";
-    hash.add_values(std::span<const char>(line));
-  }
-  return hash.text();
-}
 
 std::vector<SeriesColumn> energy_columns() {
   return {{"time", "s"},
@@ -82,6 +69,7 @@ OutputPlan read_output(const Table& root, const RunOptions& options, double end)
     if (!(t >= 0)) table.fail("at", fmt::format("{} s is before the start", t), {}, "runs begin at 0");
   plan.energies = table.non_negative("energies", unit::time, end / 200);
   plan.checkpoints = table.non_negative("checkpoints", unit::time, end / 5);
+  plan.checkpoint_wall_time = table.non_negative("checkpoint_wall_time", unit::time, 600);
   plan.report = table.flag("report", true) && options.report;
   std::vector<std::string> names;
   for (const auto& field : all_fields) names.emplace_back(field.name);
@@ -107,7 +95,7 @@ std::string snapshot_due(const OutputPlan& plan, double before, double now) {
 }
 
 template <int N>
-Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
+Frame frame_of(const Flow<N>& flow, std::int64_t step, const std::vector<int>& fields,
                std::vector<std::int32_t>& groups) {
   const Store<N>& store = flow.store();
   // Ghosts come last in the store, and are of use to nobody but the run itself.
@@ -148,7 +136,7 @@ double EnergySeries<N>::relative_residual(const Energies& e) const {
 }
 
 template <int N>
-void EnergySeries<N>::add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count) {
+void EnergySeries<N>::add(const Flow<N>& flow, const Step& step, std::int64_t count) {
   const Energies e = flow.energies();
   const auto& l = e.ledger;
   const std::array row{flow.time(),
@@ -189,41 +177,9 @@ void write_progress(const std::filesystem::path& folder, const std::string& text
   std::filesystem::rename(temporary, file, ignored);
 }
 
-std::vector<std::filesystem::path> Checkpoints::files() const {
-  std::vector<std::filesystem::path> found;
-  if (std::filesystem::is_directory(folder_))
-    for (const auto& entry : std::filesystem::directory_iterator(folder_))
-      if (entry.path().extension() == ".checkpoint") found.push_back(entry.path());
-  std::ranges::sort(found);
-  return found;
-}
-
-void Checkpoints::write(const CheckpointData& data) const {
-  write_checkpoint(folder_ / fmt::format("step_{:012}.checkpoint", data.frame.step), data);
-  const auto all = files();
-  for (std::size_t k = 0; k + 2 < all.size(); ++k) std::filesystem::remove(all[k]);
-}
-
-OwnedCheckpoint Checkpoints::read_newest() const {
-  const auto all = files();
-  std::string reasons;
-  for (auto file = all.rbegin(); file != all.rend(); ++file) try {
-      return read_checkpoint(*file);
-    } catch (const InputError& error) {
-      reasons += (reasons.empty() ? "" : "; ") + error.parts().where.file + " " + error.parts().what;
-    }
-  throw InputError({.what = "there is no checkpoint to resume from",
-                    .where = {folder_.string()},
-                    .why = reasons,
-                    .fix = "run without --resume, or name the folder of an interrupted run with --out"});
-}
-
-template Frame frame_of<1>(const WeaklyCompressible<1>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
-template Frame frame_of<2>(const WeaklyCompressible<2>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
-template Frame frame_of<3>(const WeaklyCompressible<3>&, std::int64_t, const std::vector<int>&,
-                           std::vector<std::int32_t>&);
+template Frame frame_of<1>(const Flow<1>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<2>(const Flow<2>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
+template Frame frame_of<3>(const Flow<3>&, std::int64_t, const std::vector<int>&, std::vector<std::int32_t>&);
 template class EnergySeries<1>;
 template class EnergySeries<2>;
 template class EnergySeries<3>;

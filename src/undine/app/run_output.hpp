@@ -10,10 +10,9 @@
 
 #include "undine/app/run_options.hpp"
 #include "undine/io/case/document.hpp"
-#include "undine/io/checkpoint.hpp"
 #include "undine/io/snapshot.hpp"
 #include "undine/io/time_series.hpp"
-#include "undine/schemes/weakly_compressible.hpp"
+#include "undine/schemes/flow.hpp"
 
 namespace undine {
 
@@ -21,16 +20,14 @@ namespace undine {
 struct OutputPlan {
   std::filesystem::path folder;
   double snapshots = 0, energies = 0, checkpoints = 0;
-  std::vector<double> at;   ///< further times of snapshots
-  std::vector<int> fields;  ///< of snapshots, as in fields.def
-  bool report = true;       ///< whether a page that shows the run is written at its end
+  std::vector<double> at;           ///< further times of snapshots
+  double checkpoint_wall_time = 0;  ///< on the clock, not in the simulation
+  std::vector<int> fields;          ///< of snapshots, as in fields.def
+  bool report = true;               ///< whether a page that shows the run is written at its end
 };
 
 /// Reads [output] for a run that ends at `end` (s).
 OutputPlan read_output(const Table& root, const RunOptions& options, double end);
-
-/// The part of a case that must be the same for a checkpoint to fit: all but how long it runs and what it writes.
-std::string case_hash(const Document& document);
 
 /// Whether a multiple of `interval` lies in (before, now]; also at the very start.
 bool due(double interval, double before, double now);
@@ -40,7 +37,7 @@ std::string snapshot_due(const OutputPlan& plan, double before, double now);
 
 /// The particles as a frame; `group` must live as long as the frame. All fields in use when `fields` is empty.
 template <int N>
-Frame frame_of(const WeaklyCompressible<N>& flow, std::int64_t step, const std::vector<int>& fields,
+Frame frame_of(const Flow<N>& flow, std::int64_t step, const std::vector<int>& fields,
                std::vector<std::int32_t>& groups);
 
 /// The columns of energies.csv.
@@ -52,7 +49,7 @@ class EnergySeries {
  public:
   /// Starts the file, or goes on with it after `last_time` (s).
   EnergySeries(const std::filesystem::path& folder, bool resume, double last_time);
-  void add(const WeaklyCompressible<N>& flow, const Step& step, std::int64_t count);
+  void add(const Flow<N>& flow, const Step& step, std::int64_t count);
   void set_start(double total, double potential);
   double start_total() const { return start_total_; }
   double start_potential() const { return start_potential_; }
@@ -66,7 +63,8 @@ class EnergySeries {
 };
 
 /// What may limit a step, in the order of the numbers in steps.csv.
-inline constexpr std::array<std::string_view, 5> step_limiters{"fixed", "courant", "force", "viscous", "largest"};
+inline constexpr std::array<std::string_view, 6> step_limiters{"fixed",   "courant", "force",
+                                                               "viscous", "largest", "tolerance"};
 
 /// The steps of a run as a series, steps.csv: their size, what limited it, and how many particles there were.
 class StepSeries {
@@ -82,19 +80,5 @@ class StepSeries {
 /// Replaces progress.json, by which others may follow a run. Not forced to the disk, and silent where it cannot be
 /// written: nothing depends on it.
 void write_progress(const std::filesystem::path& folder, const std::string& text);
-
-/// The last two checkpoints of a folder, by step.
-class Checkpoints {
- public:
-  explicit Checkpoints(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  /// Writes one and removes all but the last two.
-  void write(const CheckpointData& data) const;
-  /// The newest that is whole; throws InputError when there is none.
-  OwnedCheckpoint read_newest() const;
-
- private:
-  std::vector<std::filesystem::path> files() const;
-  std::filesystem::path folder_;
-};
 
 }  // namespace undine

@@ -6,26 +6,20 @@
 
 namespace undine {
 
-/// One term out of a list, chosen at run time. It is itself a term, so a sweep holds it like any other; the choice is
-/// uniform over all pairs. The alternatives must add to the same fields.
+/// One entry out of a list, chosen at run time, with the parameters of all.
 template <class List>
-class OneOf;
+class ChoiceOf;
 
-template <class... Terms>
-class OneOf<Catalogue<Terms...>> {
+template <class... Entries>
+class ChoiceOf<Catalogue<Entries...>> {
  public:
-  using List = Catalogue<Terms...>;
-  using reads = Union<typename Terms::reads...>;
-  using usual_reads = typename std::tuple_element_t<0, std::tuple<Terms...>>::reads;  ///< of the first, the default
-  using adds = typename std::tuple_element_t<0, std::tuple<Terms...>>::adds;
-  static_assert((std::is_same_v<adds, typename Terms::adds> && ...),
-                "alternatives of one choice add to the same fields");
+  using List = Catalogue<Entries...>;
 
-  OneOf() = default;
+  ChoiceOf() = default;
   /// The given alternative with its parameters, chosen.
-  template <class Term>
-  requires(std::is_same_v<Term, Terms> || ...) OneOf(const Term& term) : index_(List::template index<Term>()) {
-    std::get<Term>(terms_) = term;
+  template <class Entry>
+  requires(std::is_same_v<Entry, Entries> || ...) ChoiceOf(const Entry& entry) : index_(List::template index<Entry>()) {
+    std::get<Entry>(entries_) = entry;
   }
 
   void choose(int index) { index_ = index; }
@@ -33,41 +27,59 @@ class OneOf<Catalogue<Terms...>> {
   Info info() const { return List::info(index_); }
 
   /// The parameters of one alternative, chosen or not.
-  template <class Term>
-  Term& get() {
-    return std::get<Term>(terms_);
+  template <class Entry>
+  Entry& get() {
+    return std::get<Entry>(entries_);
   }
-  template <class Term>
-  const Term& get() const {
-    return std::get<Term>(terms_);
+  template <class Entry>
+  const Entry& get() const {
+    return std::get<Entry>(entries_);
   }
 
   /// The first alternative: for loops that are compiled for it alone.
-  const auto& first() const { return std::get<0>(terms_); }
+  const auto& first() const { return std::get<0>(entries_); }
 
-  /// Calls f(term) for the chosen alternative.
+  /// Calls f(entry) for the chosen alternative.
   template <class F>
   void with_chosen(F&& f) {
-    (void)((std::is_same_v<Terms, Terms> && index_ == List::template index<Terms>() &&
-            (f(std::get<Terms>(terms_)), true)) ||
+    (void)((std::is_same_v<Entries, Entries> && index_ == List::template index<Entries>() &&
+            (f(std::get<Entries>(entries_)), true)) ||
            ...);
   }
+
+ private:
+  int index_ = 0;
+  std::tuple<Entries...> entries_;
+};
+
+/// One term out of a list. It is itself a term, so a sweep holds it like any other; the choice is uniform over all
+/// pairs. The alternatives must add to the same fields.
+template <class List>
+class OneOf;
+
+template <class... Terms>
+class OneOf<Catalogue<Terms...>> : public ChoiceOf<Catalogue<Terms...>> {
+ public:
+  using ChoiceOf<Catalogue<Terms...>>::ChoiceOf;
+  using List = Catalogue<Terms...>;
+  using reads = Union<typename Terms::reads...>;
+  using usual_reads = typename std::tuple_element_t<0, std::tuple<Terms...>>::reads;  ///< of the first, the default
+  using adds = typename std::tuple_element_t<0, std::tuple<Terms...>>::adds;
+  static_assert((std::is_same_v<adds, typename Terms::adds> && ...),
+                "alternatives of one choice add to the same fields");
 
   /// The fields that the chosen alternative reads.
   FieldSet chosen_reads() const {
     FieldSet set;
-    ((index_ == List::template index<Terms>() ? void(set = Terms::reads::set()) : void()), ...);
+    ((this->index() == List::template index<Terms>() ? void(set = Terms::reads::set()) : void()), ...);
     return set;
   }
 
   [[gnu::always_inline]] constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     return List::visit(
-        index_, [&]<class Term>(Term) __attribute__((always_inline)) { return std::get<Term>(terms_)(a, b, ab); });
+        this->index(), [&]<class Term>(Term)
+                           __attribute__((always_inline)) { return this->template get<Term>()(a, b, ab); });
   }
-
- private:
-  int index_ = 0;
-  std::tuple<Terms...> terms_;
 };
 
 }  // namespace undine

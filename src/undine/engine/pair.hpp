@@ -42,4 +42,10 @@ struct Pair : PairBase<N, V> {
   [[gnu::noinline]] static constexpr V laplacian_of(KernelChoice choice, V R) { return choice.laplacian<N>(R); }
 };
 
+/// A pair whose terms also see the gradients of W with the support of either particle.
+template <int N, class V>
+struct PairOfTwo : Pair<N, V> {
+  Vec<N, V> grad_w_a, grad_w_b;
+};
+
 }  // namespace undine

@@ -57,7 +57,7 @@ class PairSweep {
 
   /// Which loop runs: the narrowest that does what the sweep is set to.
   SweepPath path(const SweepContext<N>& context, const Backend& backend) const {
-    if (context.support.per_particle) return SweepPath::supports;
+    if (takes_supports(context)) return SweepPath::supports;
     return unusual(context, backend).empty() ? SweepPath::usual : SweepPath::any;
   }
   /// Why it is not the usual one, for people; empty where it is.
@@ -65,7 +65,7 @@ class PairSweep {
     if (backend.kind != BackendKind::threads) return "one pair at a time";
     if (backend.precision != PairPrecision::mixed) return "in double";
     if (backend.instructions == InstructionSet::basic) return "narrow vectors";
-    if (context.support.per_particle) return "H of each pair";
+    if (takes_supports(context)) return "H of each pair";
     for (const KernelChoice kernel : context.kernels)
       if (kernel != KernelChoice{}) return "kernel " + std::string(kernel.info().name);
     std::string found;
@@ -103,8 +103,11 @@ class PairSweep {
   }
 
  private:
+  static bool takes_supports(const SweepContext<N>& context) {
+    return SupportWish<Uses...>::only_supports || context.support.per_particle;
+  }
   static SweepPath plain_path(const SweepContext<N>& context) {
-    return context.support.per_particle ? SweepPath::supports : SweepPath::any;
+    return takes_supports(context) ? SweepPath::supports : SweepPath::any;
   }
   void run_serial(const SweepContext<N>& context) {
     const int threads = omp_get_max_threads();

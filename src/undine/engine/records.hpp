@@ -141,7 +141,8 @@ class RecordLayout {
         for (int k = 0; k < n; ++k) to[k] = static_cast<Real>(from[k] - shift);
         if constexpr (detail::knows_inverse<F, V>) to[n] = static_cast<Real>(1 / from[0]);
       });
-      if (with_extra) more[support_at] = static_cast<Real>(context.support.per_particle ? h[i] : 0);
+      if (with_extra)
+        more[support_at] = static_cast<Real>(context.support.per_particle ? h[i] : context.support.uniform);
     }
     return records;
   }

@@ -5,7 +5,9 @@
 namespace undine {
 
 /// How the support radius of a pair follows from those of its particles. Monaghan (1992); Niedoba (2012), eq. 2.69.
-enum class Symmetrisation { arithmetic, geometric, max, min };
+/// `gradients`: the mean of the kernels of both supports instead, Hernquist & Katz (1989), eq. 2.18; where a sweep does
+/// not know both, the arithmetic mean of the supports.
+enum class Symmetrisation { arithmetic, geometric, max, min, gradients };
 
 /// The support radius H of a run: one number, or a value per particle with a rule for pairs.
 struct Support {
@@ -26,6 +28,7 @@ V pair_support(Symmetrisation mean, const A& h_a, const V& h_b) {
     case Symmetrisation::min:
       return min(V(h_a), h_b);
     case Symmetrisation::arithmetic:
+    case Symmetrisation::gradients:
       break;
   }
   return V(0.5) * (V(h_a) + h_b);

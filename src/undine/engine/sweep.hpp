@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "undine/core/one_of.hpp"
 #include "undine/core/pack.hpp"
 #include "undine/engine/neighbours.hpp"
 #include "undine/engine/pair.hpp"
@@ -64,6 +65,31 @@ FieldSet target_reads_of() {
     return Term::reads::set();
   }
 }
+
+/// Whether a term, or an alternative of it, takes gradients with the supports of both particles of a pair.
+template <class Term>
+inline constexpr bool wants_both_supports = requires {
+  requires Term::needs_both_supports;
+};
+template <class... Terms>
+inline constexpr bool wants_both_supports<OneOf<Catalogue<Terms...>>> = (wants_both_supports<Terms> || ...);
+/// Whether a term sums with the support of its target, whatever the rule for pairs.
+template <class Term>
+inline constexpr bool wants_target_support = requires {
+  requires Term::takes_target_support;
+};
+template <class... Terms>
+inline constexpr bool wants_target_support<OneOf<Catalogue<Terms...>>> = (wants_target_support<Terms> || ...);
+
+/// What the terms of a sweep together want of the supports of a pair.
+template <class... Uses>
+struct SupportWish {
+  static constexpr bool both = (wants_both_supports<typename Uses::Term> || ...);
+  static constexpr bool target = (wants_target_support<typename Uses::Term> || ...);
+  static_assert(!target || (wants_target_support<typename Uses::Term> && ...), "one support for all terms of a sweep");
+  /// Whether no loop but that with an H of each pair is compiled.
+  static constexpr bool only_supports = both || target;
+};
 
 /// Everything a sweep needs to know of the run.
 template <int N>

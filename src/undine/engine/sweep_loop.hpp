@@ -11,13 +11,15 @@ namespace undine {
 namespace detail {
 
 /// Power of a contribution to a rate: force times velocity for `acc` and `acc_wall`, m p / rho^2 times the rate for a
-/// density rate (the work that compression stores), nothing for any other field.
+/// density rate (the work that compression stores), m times a rate of internal energy, nothing for any other field.
 template <class Tag, class Target, class Value>
 double power_of(const Target& a, const Value& rate) {
   if constexpr (std::is_same_v<Tag, field::acc> || std::is_same_v<Tag, field::acc_wall>) {
     return a.m * dot(a.v, rate);
   } else if constexpr (std::is_same_v<Tag, field::drho> || std::is_same_v<Tag, field::drho_diff>) {
     return a.m * a.p / sq(a.rho) * rate;
+  } else if constexpr (std::is_same_v<Tag, field::de>) {
+    return a.m * rate;
   } else {
     return 0.0;
   }
@@ -82,27 +84,35 @@ class SweepLoop {
   /// Wide float packs have a loop of their own for the usual choices; each such loop takes a minute to compile.
   static constexpr bool has_usual_path = std::is_same_v<Real, float> && lanes >= 8;
 
+  using Wish = SupportWish<Uses...>;
+
   /// Whether a term in use reads a field of the extra records, or each particle has its own H.
   bool reads_extra() const {
     const FieldSet in_use =
         std::apply([](const auto&... use) { return (reads_in_use(use) | ... | FieldSet{}); }, uses_);
-    bool found = context_.support.per_particle;
+    bool found = Wish::only_supports || context_.support.per_particle;
     for (int f = 0; f < FieldId::count; ++f) found = found || (in_use[f] && Layout::is_extra(f));
     return found;
   }
 
   void sweep_targets(const SweepTask& task, IndexRange some, bool with_extra, typename Neighbours<N>::Scratch& scratch,
                      Powers& power) {
-    if constexpr (has_usual_path) {
+    if constexpr (Wish::only_supports) {
+      sweep_on<SweepPath::supports>(task, some, true, scratch, power);
+      return;
+    }
+    if constexpr (has_usual_path && !Wish::only_supports) {
       if (task.path == SweepPath::usual) {
         sweep_on<SweepPath::usual>(task, some, false, scratch, power);
         return;
       }
     }
-    if (task.path == SweepPath::supports) {
-      sweep_on<SweepPath::supports>(task, some, true, scratch, power);
-    } else {
-      sweep_on<SweepPath::any>(task, some, with_extra, scratch, power);
+    if constexpr (!Wish::only_supports) {
+      if (task.path == SweepPath::supports) {
+        sweep_on<SweepPath::supports>(task, some, true, scratch, power);
+      } else {
+        sweep_on<SweepPath::any>(task, some, with_extra, scratch, power);
+      }
     }
   }
 
@@ -214,15 +224,20 @@ class SweepLoop {
 
     const Vec<N, V> dx = frame.code.template difference<V>(x_a, x_b);
     V H, inv_H;
-    if constexpr (path == SweepPath::supports) {
+    if constexpr (Wish::target) {
+      H = V(h_a);
+      inv_H = V(1) / H;
+    } else if constexpr (path == SweepPath::supports) {
       H = pair_support<V>(frame.mean, h_a, numbers[Layout::support_at]);
       inv_H = V(1) / H;
     } else {
       H = V(frame.H);
       inv_H = V(frame.inv_H);
     }
+    BothSupports both;
+    if constexpr (Wish::both) both = {V(h_a), numbers[Layout::support_at]};
     V r_sq = norm_sq(dx);
-    if (valid < lanes) r_sq = pad(r_sq, valid, H);
+    if (valid < lanes) r_sq = pad(r_sq, valid, Wish::both ? max(both.of_a, both.of_b) : H);
     const V r = sqrt(r_sq);
     const V h = H * V(frame.h_over_H);
     V inv_r_sq, inv_rho{};
@@ -236,8 +251,12 @@ class SweepLoop {
       if constexpr (Layout::Reads::template has<field::rho>) inv_rho = V(2) / (row_a.rho + row_b.rho);
     }
     const PairBase<N, V> base{dx, r, r_sq, H, h, inv_r_sq, inv_rho, r_sq < H * H};
-    evaluate<path>(frame, acting, row_a, row_b, base, inv_H, sums, std::index_sequence_for<Uses...>{});
+    evaluate<path>(frame, acting, row_a, row_b, base, inv_H, both, sums, std::index_sequence_for<Uses...>{});
   }
+
+  struct BothSupports {
+    V of_a, of_b;
+  };
 
   [[gnu::always_inline]] static V pad(const V& r_sq, int valid, const V& H) {
     if constexpr (lanes == 1) {
@@ -269,15 +288,36 @@ class SweepLoop {
     }
   }
 
+  /// Not inlined where it is needed for three supports: every kernel stands in it.
+  [[gnu::noinline]] static KernelValues kernel_values_apart(KernelChoice kernel, const V& r, const V& H) {
+    const V inv_H = V(1) / H;
+    return kernel_values<SweepPath::supports>(kernel, r * inv_H, inv_H);
+  }
+  static KernelValues mean_of(const KernelValues& a, const KernelValues& b) {
+    return {V(0.5) * (a.w + b.w), V(0.5) * (a.grad + b.grad)};
+  }
+
   template <SweepPath path, std::size_t... I>
   [[gnu::always_inline]] static void evaluate(const Frame& frame, unsigned acting, const TargetRow& a,
                                               const SourceRow& b, const PairBase<N, V>& base, const V& inv_H,
-                                              V (&sums)[sum_count], std::index_sequence<I...>) {
+                                              [[maybe_unused]] const BothSupports& both, V (&sums)[sum_count],
+                                              std::index_sequence<I...>) {
     // Most schemes use one kernel for all roles: it is then evaluated once.
-    const V R = base.r * inv_H;
+    [[maybe_unused]] const V R = base.r * inv_H;
     const auto& kernels = frame.kernels;
     constexpr int first_role = std::min({static_cast<int>(Uses::role)...});
-    const KernelValues first = kernel_values<path>(kernels[first_role], R, inv_H);
+    KernelValues first;
+    [[maybe_unused]] KernelValues of_a, of_b;
+    if constexpr (Wish::both) {
+      static_assert(((static_cast<int>(Uses::role) == first_role) && ...),
+                    "one kernel for all terms of a sweep that knows both supports");
+      of_a = kernel_values_apart(kernels[first_role], base.r, both.of_a);
+      of_b = kernel_values_apart(kernels[first_role], base.r, both.of_b);
+      first = frame.mean == Symmetrisation::gradients ? mean_of(of_a, of_b)
+                                                      : kernel_values_apart(kernels[first_role], base.r, base.support);
+    } else {
+      first = kernel_values<path>(kernels[first_role], R, inv_H);
+    }
     const auto one = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) __attribute__((always_inline)) {
       using U = UseAt<J>;
       const U& use = std::get<J>(frame.uses);
@@ -285,17 +325,26 @@ class SweepLoop {
       if (U::presence != Presence::always && (acting >> J & 1) == 0) return;
       constexpr int role = static_cast<int>(U::role);
       KernelValues values = first;
-      if constexpr (role != first_role && path != SweepPath::usual) {
+      if constexpr (!Wish::both && role != first_role && path != SweepPath::usual) {
         if (kernels[role].index() != kernels[first_role].index()) values = kernel_values<path>(kernels[role], R, inv_H);
       }
       const Pair<N, V> ab{base, values.w, base.dx * values.grad, &kernels[role]};
-      if constexpr (path == SweepPath::usual && requires { use.term.first(); }) {
+      if constexpr (Wish::both) {
+        const PairOfTwo<N, V> ab_of_two{ab, base.dx * of_a.grad, base.dx * of_b.grad};
+        add<J>(use.term(a, b, ab_of_two), reaches(base, both), sums);
+      } else if constexpr (path == SweepPath::usual && requires { use.term.first(); }) {
         add<J>(use.term.first()(a, b, ab), base.inside, sums);
       } else {
         add<J>(use.term(a, b, ab), base.inside, sums);
       }
     };
     (one(std::integral_constant<std::size_t, I>{}), ...);
+  }
+
+  /// Whether the particles are within the support of either.
+  [[gnu::always_inline]] static auto reaches(const PairBase<N, V>& base, const BothSupports& both) {
+    const V H = max(both.of_a, both.of_b);
+    return base.r_sq < H * H;
   }
 
   template <std::size_t I, class Row, class Mask>

@@ -14,6 +14,8 @@ struct Euler {
   static constexpr Info info{"euler", "Explicit Euler; first order, for comparison",
                              "x += v dt, v += acc dt, rho += drho dt, all from the old state",
                              "Saalfeld (2012), eq. 19"};
+  static constexpr int order = 1;
+
   template <class Flow>
   static void step(Flow& flow, double dt) {
     flow.book(dt);

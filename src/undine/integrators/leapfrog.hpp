@@ -10,6 +10,8 @@ struct Leapfrog {
       "leapfrog", "Kick-drift-kick leapfrog; second order, one force evaluation a step",
       "v += acc dt/2; x += v dt/2; rho += drho(x, v) dt; x += v dt/2; acc(x, v + acc dt/2); v += acc dt/2",
       "Saalfeld (2012), eq. 20; Springel (2005), kick-drift-kick"};
+  static constexpr int order = 2;
+
   template <class Flow>
   static void step(Flow& flow, double dt) {
     flow.book(dt / 2);

@@ -9,6 +9,8 @@ struct PredictorCorrector {
                              "to the middle with the old rates; then the whole step with the rates of the middle, x by "
                              "the mean of old and new v",
                              "Monaghan (1989), sec. 4; Dominguez et al. (2022), eq. 38-41"};
+  static constexpr int order = 2;
+
   template <class Flow>
   static void step(Flow& flow, double dt) {
     flow.save();

@@ -71,11 +71,14 @@ Content read_content(const fs::path& path) {
 void seal(const fs::path& path) {
   const Content content = read_content(path);
   const std::string text = header(content.size, content.hash);
+  errno = 0;
   std::fstream stream(path, std::ios::binary | std::ios::in | std::ios::out);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (!stream)
-    throw Error({.what = fmt::format("cannot write '{}'", path.string()), .why = "its header was not taken"});
+    throw Error({.what = fmt::format("cannot write '{}'", path.string()),
+                 .why = std::generic_category().message(errno),
+                 .fix = "check that the folder exists and that you may write to it, and that the disk is not full"});
 }
 
 void verify(const fs::path& path) {

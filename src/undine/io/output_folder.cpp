@@ -34,16 +34,19 @@ constexpr const char* marker = ".undine";
 /// Whether an earlier run wrote the file, and a later one might leave it behind.
 bool is_output(const fs::path& file) {
   const std::string name = file.filename().string();
-  constexpr std::string_view endings[] = {".vtkhdf", ".vtkhdf.series", ".checkpoint", ".tmp"};
-  return name == "report.html" ||
+  constexpr std::string_view endings[] = {".vtkhdf", ".vtkhdf.series", ".checkpoint", ".refused", ".tmp"};
+  return name == "report.html" || name == "diagnosis.txt" ||
          std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-void remove_outputs(const fs::path& folder) {
+/// What a run that was killed had half written.
+bool is_half_written(const fs::path& file) { return file.extension() == ".tmp"; }
+
+void remove_files(const fs::path& folder, bool (*goes)(const fs::path& file)) {
   std::error_code reason;
   std::vector<fs::path> old;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, reason))
-    if (entry.is_regular_file(reason) && is_output(entry.path())) old.push_back(entry.path());
+    if (entry.is_regular_file(reason) && goes(entry.path())) old.push_back(entry.path());
   for (const fs::path& file : old)
     if (!fs::remove(file, reason) && reason) refuse_access(folder, reason);
 }
@@ -82,7 +85,11 @@ void prepare_output_folder(const fs::path& folder, FolderMode mode) {
   if (mode == FolderMode::overwrite && !empty && !fs::exists(folder / marker, reason))
     refuse(folder, "it holds files that no run of this program put there",
            "choose another folder with --out, or empty it yourself");
-  if (mode == FolderMode::overwrite) remove_outputs(folder);
+  if (mode == FolderMode::resume) remove_files(folder, is_half_written);
+  if (mode == FolderMode::overwrite) {
+    remove_files(folder, is_output);
+    if (fs::exists(folder / "window", reason)) remove_files(folder / "window", is_output);
+  }
   mark(folder, mode);
 }
 

@@ -176,6 +176,10 @@ void TimeSeries::add(std::span<const double> row) {
     throw Error({.what = fmt::format("cannot add a row to '{}'", path_.string()),
                  .why = fmt::format("it has {} values for {} columns", row.size(), width_)});
   std::string line = fmt::format("{}\n", fmt::join(row, ","));
+  if (std::error_code ignored; !fs::exists(path_, ignored))
+    throw Error({.what = fmt::format("'{}' is gone", path_.string()),
+                 .why = "it was removed or moved while the run was writing to it; rows would be lost",
+                 .fix = "put it back and go on from the last checkpoint with --resume"});
   errno = 0;
   if (!stream_.write(line.data(), static_cast<std::streamsize>(line.size())).flush())
     throw Error({.what = fmt::format("cannot write '{}'", path_.string()),

@@ -142,6 +142,37 @@ void Ghosts<N>::answer(Store<N>& store, const Vec<N>& gravity, bool pulls,
   });
 }
 
+template <int N>
+void Ghosts<N>::mirror(Store<N>& store, const FieldSet& fields) const {
+  const std::size_t first = store.range(Group::wall).begin;
+  const auto ids = store.ids();
+  const auto turned = [&](const walls::Mirror<N>& mirror, const Vec<N>& v) {
+    return mirrors_->slip() == walls::Slip::none ? Vec<N>{} - v : mirror.turned(v);
+  };
+  for (int f = 0; f < FieldId::count; ++f) {
+    if (!fields[static_cast<std::size_t>(f)]) continue;
+    const auto values = store.raw(f);
+    const Rank rank = all_fields[f].rank;
+    for_each_particle(store, Group::wall, [&](std::size_t i) {
+      const std::size_t parent = parents_[i - first];
+      const auto& mirror = mirrors_->mirror(mirror_of(ids[i]));
+      if (rank == Rank::scalar) {
+        values[i] = values[parent];
+      } else if (rank == Rank::vector) {
+        auto* const vectors = reinterpret_cast<Vec<N>*>(values.data());
+        vectors[i] = turned(mirror, vectors[parent]);
+      } else {
+        auto* const tensors = reinterpret_cast<Vec<N, Vec<N>>*>(values.data());
+        Vec<N, Vec<N>> rows, columns;
+        for (int j = 0; j < N; ++j) rows[j] = mirror.turned(tensors[parent][j]);
+        for (int j = 0; j < N; ++j)
+          for (int k = 0; k < N; ++k) columns[k][j] = rows[j][k];
+        for (int j = 0; j < N; ++j) tensors[i][j] = mirror.turned(columns[j]);
+      }
+    });
+  }
+}
+
 template class Ghosts<1>;
 template class Ghosts<2>;
 template class Ghosts<3>;

@@ -28,6 +28,9 @@ class Ghosts {
   void answer(Store<N>& store, const Vec<N>& gravity, bool pulls,
               const std::vector<materials::Material>& materials) const;
 
+  /// The same value for scalars, its mirror image for vectors and symmetric tensors: as parents have it.
+  void mirror(Store<N>& store, const FieldSet& fields) const;
+
   /// The mirror of a ghost, from its id.
   static int mirror_of(std::int64_t id) { return static_cast<int>((-1 - id) % most_mirrors); }
 

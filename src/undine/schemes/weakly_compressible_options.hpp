@@ -1,52 +1,16 @@
 #pragma once
-#include <array>
-#include <functional>
-#include <memory>
 #include <optional>
-#include <vector>
 
-#include "undine/backend/backend.hpp"
-#include "undine/engine/neighbours.hpp"
-#include "undine/engine/pair.hpp"
-#include "undine/engine/smoothing.hpp"
-#include "undine/kernels/kernel.hpp"
-#include "undine/materials/catalogue.hpp"
-#include "undine/schemes/wall_motion.hpp"
-#include "undine/terms/catalogue.hpp"
-#include "undine/walls/catalogue.hpp"
-#include "undine/walls/mirrors.hpp"
+#include "undine/schemes/flow_options.hpp"
 
 namespace undine {
-
-/// Where the density of fluid particles comes from.
-enum class DensityForm {
-  evolved,    ///< integrated from a continuity form
-  summation,  ///< summed over the neighbours
-  normalised  ///< summed, divided by the Shepard sum over the same neighbours
-};
-
-/// Where a particle ends that set out from `from` to `to` with velocity v, past elastic walls.
-template <int N>
-struct Bounce {
-  Vec<N> x, v;
-};
-template <int N>
-using Reflector = std::function<Bounce<N>(const Vec<N>& from, const Vec<N>& to, const Vec<N>& v)>;
-
-/// Imposed acceleration at (x, t), m/s^2.
-template <int N>
-using BodyForce = std::function<Vec<N>(const Vec<N>& x, double t)>;
 
 /// What XSPH corrects: the velocity that moves particles (Saalfeld 2012, eq. 50), or the velocity itself (his table 2).
 enum class XsphTarget { position, velocity };
 
 /// Every choice of a weakly compressible run, as data.
 template <int N>
-struct WeaklyCompressibleOptions {
-  std::array<KernelChoice, kernel_roles> kernels;
-  Support support;       ///< `uniform` is the largest H at the start
-  bool rho_law = false;  ///< H = H_0 (rho_0/rho)^(1/N), Niedoba (2012), eq. 2.67
-
+struct WeaklyCompressibleOptions : FlowOptions<N> {
   DensityForm density = DensityForm::evolved;
   OneOf<terms::ContinuityForms> continuity;
   OneOf<terms::PressureForms> pressure;
@@ -56,42 +20,9 @@ struct WeaklyCompressibleOptions {
   XsphTarget xsph_target = XsphTarget::position;
   std::optional<OneOf<terms::DiffusionForms>> diffusion;
 
-  walls::WallDensity wall_density = walls::WallDensity::none;
-  bool wall_pulls =
-      false;  ///< whether what walls answer may fall below the state at rest, and pull on fluid that leaves
-  bool wall_friction = true;  ///< whether viscosities act between fluid and walls
-  bool wall_no_slip = false;  ///< whether viscosities hold the fluid at the walls' surface, not only drag on it
-  Reflector<N> reflector;     ///< empty: no elastic walls
-  WallPlan<N> walls;
-  std::optional<terms::Repulsion> repulsion;  ///< of wall particles, which then do nothing else
-  std::function<Vec<N>(const Vec<N>& x)>
-      pushed_out;  ///< where walls want a particle at x to be; empty: they do not push
-  std::shared_ptr<const walls::Mirrors<N>> mirrors;  ///< of ghosts: needed by `copied` wall density, and only there
-  bool ghost_hydrostatic = true;                     ///< p_g = p + rho g.(x_g - x), instead of p_g = p
-
-  std::vector<materials::Material> materials;
+  bool wall_friction = true;        ///< whether viscosities act between fluid and walls
+  bool wall_no_slip = false;        ///< whether viscosities hold the fluid at the walls' surface, not only drag on it
   bool strain_dissipation = false;  ///< also measure 2 mu D:D from the velocity gradient, at the cost of a sweep
-  Vec<N> gravity{};
-  BodyForce<N> body_force;  ///< empty: gravity alone
-
-  bool lets_escape = false;  ///< whether fluid that leaves the domain is taken out, instead of ending the run
-  FieldSet kept;             ///< of the set-up, besides those that the scheme needs
-  Backend backend;
-  typename Neighbours<N>::Options neighbours;
-};
-
-/// Factors of the step limits; a fixed step when `fixed` > 0.
-struct StepLimits {
-  double fixed = 0;
-  double courant = 0.4;    ///< of h / (c + mu), Monaghan (1992), eq. 10.5
-  double force = 0.25;     ///< of sqrt(h / |acc|)
-  double viscous = 0.125;  ///< of h^2 rho / mu, Morris et al. (1997), eq. 23
-  double largest = 1e300;
-};
-
-struct Step {
-  double dt;
-  const char* limiter;  ///< "fixed", "courant", "force", "viscous", "largest"
 };
 
 }  // namespace undine

@@ -8,28 +8,30 @@ namespace undine {
 template <int N>
 void WeaklyCompressible<N>::add_wall_stages() {
   if (options_.wall_density == WallDensity::extrapolated) {
-    add_sweep(wall_pressure_, false);
-    if (holds() || options_.walls.moves()) add_sweep(wall_answer_, false);
+    this->add_sweep(wall_pressure_, false);
+    if (holds() || options_.walls.moves()) this->add_sweep(wall_answer_, false);
     if (options_.walls.moves()) add_inertia_stage();
-    add_update("wall answer", Group::wall, rules::AnswerExtrapolatedPressure{options_.materials, options_.wall_pulls});
-    if (holds()) add_update("wall friction velocity", Group::wall, rules::AnswerFrictionVelocity{});
+    this->add_update("wall answer", Group::wall,
+                     rules::AnswerExtrapolatedPressure{options_.materials, options_.wall_pulls});
+    if (holds()) this->add_update("wall friction velocity", Group::wall, rules::AnswerFrictionVelocity{});
     return;
   }
   if (options_.wall_density == WallDensity::copied) {
     const FieldSet answer = Fields<rho, p, c>::set();
-    plan_.add({"ghosts' answer", Resources(Group::fluid, answer | Fields<x>::set()), Resources(Group::wall, answer),
-               [this] { ghosts_->answer(store_, gravity_of_ghosts(), options_.wall_pulls, options_.materials); }});
+    plan_.add(
+        {"ghosts' answer", Resources(Group::fluid, answer | Fields<x>::set()), Resources(Group::wall, answer),
+         [this] { ghosts_->answer(store_, this->gravity_of_ghosts(), options_.wall_pulls, options_.materials); }});
     return;
   }
   if (options_.wall_density == WallDensity::mirrored) {
     add_mirror_stage();
   } else if (options_.wall_density == WallDensity::modified) {
-    add_sweep(wall_summation_, false);
-    add_update("wall density", Group::wall, rules::AnswerModifiedDensity{});
+    this->add_sweep(wall_summation_, false);
+    this->add_update("wall density", Group::wall, rules::AnswerModifiedDensity{});
   } else {
-    add_sweep(wall_continuity_, false);
+    this->add_sweep(wall_continuity_, false);
   }
-  add_update("wall equation of state", Group::wall, rules::ApplyEquationOfState{options_.materials});
+  this->add_update("wall equation of state", Group::wall, rules::ApplyEquationOfState{options_.materials});
 }
 
 /// In the frame of an accelerated wall gravity is g - a_w: Adami et al. (2012), eq. 27.
@@ -53,12 +55,12 @@ void WeaklyCompressible<N>::add_inertia_stage() {
 /// et al. (2022), eq. 10-15. A wall to which fluid sticks has v_w = 2 v_wall - v_g.
 template <int N>
 void WeaklyCompressible<N>::add_mirror_stage() {
-  Resources reads(Group::fluid, Fields<m, rho, v>::set() | place());
+  Resources reads(Group::fluid, Fields<m, rho, v>::set() | this->place());
   reads.add(Group::wall, Fields<x, v, rho_0>::set());
   Resources writes(Group::wall, Fields<rho>::set());
   if (holds()) writes.add(Group::wall, Fields<v_friction>::set());
   plan_.add({"wall mirror", reads, writes, [this] {
-               const SweepContext<N> run = context();
+               const SweepContext<N> run = this->context();
                const InterpolationSource<N> source{store_, neighbours_, domain_,
                                                    run.kernels[static_cast<int>(KernelRole::density)], run.support};
                const auto& walls = options_.walls;
@@ -80,56 +82,16 @@ void WeaklyCompressible<N>::add_mirror_stage() {
 /// Forces of walls that are not the answer to pressure.
 template <int N>
 void WeaklyCompressible<N>::add_push_stages() {
-  if (holds()) add_update("fluid friction velocity", Group::fluid, rules::TakeOwnVelocity{});
-  add_sweep(push_, true);
-}
-
-/// What reflects, pushes or is asked for its depth is where its motion has it at t.
-template <int N>
-void WeaklyCompressible<N>::place_surfaces(double t) const {
-  for (const auto& motion : options_.walls.motions)
-    if (motion.place_surface) motion.place_surface(motion.state(t));
-}
-
-/// Walls are where their motion has them now.
-template <int N>
-void WeaklyCompressible<N>::move_walls() {
-  const auto& walls = options_.walls;
-  if (!walls.moves()) return;
-  std::vector<typename WallMotion<N>::State> states;
-  for (const auto& motion : walls.motions) states.push_back(motion.state(time_));
-  auto at = store_.template get<x>();
-  auto u = store_.template get<v>();
-  for_each_particle(store_, Group::wall, [&](std::size_t i) {
-    const auto k = static_cast<std::size_t>(store_.ids()[i] - walls.first_id);
-    if (walls.motion[k] < 0) return;
-    const auto which = static_cast<std::size_t>(walls.motion[k]);
-    const Vec<N> place = walls.start[k] + states[which].displacement;
-    at[i] = domain_.wrapped(place);
-    u[i] = states[which].velocity;
-    if (walls.motions[which].slide) u[i] += walls.motions[which].slide(place, time_);
-  });
-}
-
-/// f = (l - r)/dt^2 along the normal, for a whole step: v changes by (l - r)/dt. Saalfeld (2012), eq. 58.
-template <int N>
-void WeaklyCompressible<N>::push_from_walls(double dt) {
-  auto u = store_.template get<v>();
-  const auto at = store_.template get<x>();
-  const auto mass = store_.template get<m>();
-  ledger_.walls += total_over(store_, Group::fluid, [&](std::size_t i) {
-    const Vec<N> old = u[i];
-    u[i] += (options_.pushed_out(at[i]) - at[i]) / dt;
-    return 0.5 * mass[i] * (norm_sq(old) - norm_sq(u[i]));
-  });
+  if (holds()) this->add_update("fluid friction velocity", Group::fluid, rules::TakeOwnVelocity{});
+  this->add_sweep(push_, true);
 }
 
 template <int N>
 void WeaklyCompressible<N>::evaluate_wall_forces() {
   const bool answers = options_.wall_density != WallDensity::none;
-  if (answers) run(wall_force_);
+  if (answers) this->run(wall_force_);
   if (!pushes()) return;
-  run(pushed_back_);
+  this->run(pushed_back_);
   auto a = store_.template get<acc>();
   const auto push = store_.template get<acc_wall>();
   for_each_particle(store_, Group::wall, [&](std::size_t i) { a[i] = answers ? a[i] + push[i] : push[i]; });

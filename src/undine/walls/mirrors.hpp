@@ -47,6 +47,12 @@ struct Mirror {
     for (int k = 0; k < count; ++k) y -= axes[k] * (2 * (dot(axes[k], x) - offsets[k]));
     return y;
   }
+  /// The image of a vector that turns with the fluid.
+  Vec<N> turned(const Vec<N>& v) const {
+    Vec<N> u = v;
+    for (int k = 0; k < count; ++k) u -= axes[k] * (2 * dot(axes[k], v));
+    return u;
+  }
   Vec<N> velocity(const Vec<N>& v, Slip slip) const {
     if (slip == Slip::none) return 2.0 * wall_velocity - v;
     Vec<N> u = v;

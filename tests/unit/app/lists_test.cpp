@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "undine/app/gauges.hpp"
+#include "undine/app/watchdog/causes/catalogue.hpp"
 #include "undine/approximation/catalogue.hpp"
 #include "undine/backend/backend.hpp"
 #include "undine/core/error.hpp"
@@ -31,8 +32,19 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSubsetOf;
 
-const std::vector<std::string> term_axes{
-    "density", "pressure", "viscosity", "artificial_viscosity", "density_diffusion", "velocity_correction", "sums"};
+const std::vector<std::string> term_axes{"density",
+                                         "pressure",
+                                         "viscosity",
+                                         "artificial_viscosity",
+                                         "density_diffusion",
+                                         "velocity_correction",
+                                         "sums",
+                                         "gas_density",
+                                         "gas_pressure",
+                                         "energy",
+                                         "gas_viscosity",
+                                         "stress",
+                                         "conductivity"};
 
 std::vector<std::string> names_in(const Axis& axis) {
   std::vector<std::string> names;
@@ -75,6 +87,7 @@ TEST(Lists, HoldEveryEntryInTheOrderOfItsList) {
   EXPECT_EQ(names_of_axis("sums"), terms::Sums::names());
   EXPECT_EQ(names_of_axis("equations_of_state"), materials::EquationsOfState::names());
   EXPECT_EQ(names_of_axis("walls"), walls::Walls::names());
+  EXPECT_EQ(names_of_axis("causes"), causes::Causes::names());
   EXPECT_EQ(names_of_axis("integrators"), integrators::Integrators::names());
   EXPECT_EQ(names_of_axis("approximations"), approximation::Methods::names());
   EXPECT_EQ(names_of_axis("searches"), names_in(search_infos()));

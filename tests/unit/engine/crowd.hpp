@@ -120,6 +120,17 @@ Crowd<N> make_crowd(const CrowdOptions& o, std::uint64_t seed = 1) {
   }
   Random other(seed + 1);  // of its own, so that the crowd stays what it was before there was this field
   for (auto& u : store.template get<field::v_friction>()) u = other.vector<N>(1);
+  Random gas(seed + 2);
+  for (std::size_t i = 0; i < store.size(); ++i) {
+    store.template get<field::acc>()[i] = gas.vector<N>(10);
+    store.template get<field::e>()[i] = gas.between(1, 3);
+    store.template get<field::omega>()[i] = gas.between(0.8, 1.2);
+    store.template get<field::alpha_v>()[i] = gas.between(0.1, 1);
+    store.template get<field::balsara>()[i] = gas.between(0, 1);
+    auto& stress = store.template get<field::stress>()[i];
+    for (int j = 0; j < N; ++j)
+      for (int k = 0; k <= j; ++k) stress[j][k] = stress[k][j] = gas.between(-1, 1);
+  }
   return crowd;
 }
 

@@ -11,6 +11,10 @@ namespace undine::test {
 /// The terms that are in no list: each does one fixed job.
 using LoneTerms = terms::Measures;
 
+/// The works of pressure that take one support for a pair. What takes both, or the target's, has sweeps of its own:
+/// tests/unit/schemes/gas_sweeps_test.cpp.
+using WorkForms = Catalogue<terms::EnergySymmetric, terms::EnergySum, terms::EnergyOwn, terms::EnergyOwnVolume>;
+
 template <class List>
 struct EveryTermOf;
 template <class... Sum, class... Lone, class... Force>
@@ -23,6 +27,10 @@ struct EveryTermOf<std::tuple<Catalogue<Sum...>, Catalogue<Lone...>, Catalogue<F
                           Use<OneOf<terms::DiffusionForms>>,                                //
                           Use<OneOf<terms::VelocityCorrections>>,                           //
                           Use<OneOf<terms::NoSlipForms>, KernelRole::viscosity>,            //
+                          Use<OneOf<WorkForms>, KernelRole::pressure>,                      //
+                          Use<OneOf<terms::GasViscosities>, KernelRole::viscosity>,         //
+                          Use<OneOf<terms::StressForms>, KernelRole::viscosity>,            //
+                          Use<OneOf<terms::Conductivities>>,                                //
                           Use<Sum>..., Use<Lone>..., Use<Force>...>;
 };
 
@@ -43,6 +51,10 @@ void for_each_term(F&& f) {
   LoneTerms::for_each(f);
   terms::WallForces::for_each(f);
   terms::NoSlipForms::for_each(f);
+  WorkForms::for_each(f);
+  terms::GasViscosities::for_each(f);
+  terms::StressForms::for_each(f);
+  terms::Conductivities::for_each(f);
 }
 
 template <class Term, class Entry>

@@ -214,8 +214,8 @@ TEST(Sweep, GivesTheSameBitsForAnyNumberOfThreads) {
   omp_set_num_threads(threads);
 }
 
-// Criterion: booked power = sum m v.acc (or m p/rho^2 drho) over the targets, to 1e-13; fluid and wall apart add up to
-// both.
+// Criterion: booked power = sum m v.acc (and m de; or m p/rho^2 drho) over the targets, to 1e-13; fluid and wall apart
+// add up to both.
 TEST(Sweep, BooksThePowerOfWhatItAdds) {
   Bench<2> bench(make_crowd<2>({.side = 14}), {.kernels = wendland}, "cell_grid", true);
   EveryTerm<2> sweep("test", Group::fluid, Booking::on);
@@ -235,8 +235,9 @@ TEST(Sweep, BooksThePowerOfWhatItAdds) {
     for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
       const double m = store.get<field::m>()[i], p = store.get<field::p>()[i], rho = store.get<field::rho>()[i];
       double one = 0;
+      if constexpr (Term::adds::template has<field::de>) one = m * store.get<field::de>()[i];
       if constexpr (Term::adds::template has<field::acc>)
-        one = m * dot(store.get<field::v>()[i], store.get<field::acc>()[i]);
+        one += m * dot(store.get<field::v>()[i], store.get<field::acc>()[i]);
       if constexpr (Term::adds::template has<field::acc_wall>)
         one = m * dot(store.get<field::v>()[i], store.get<field::acc_wall>()[i]);
       if constexpr (Term::adds::template has<field::drho>) one = m * p / sq(rho) * store.get<field::drho>()[i];

@@ -5,6 +5,7 @@
 
 #include "undine/engine/update.hpp"
 #include "undine/schemes/particle_rules.hpp"
+#include "undine/schemes/presets.hpp"
 #include "undine/terms/catalogue.hpp"
 #include "unit/engine/crowd.hpp"
 #include "unit/engine/every_term.hpp"
@@ -100,6 +101,10 @@ Term example() {
   if constexpr (requires { term.beta; }) term.beta = 2;
   if constexpr (requires { term.gravity; }) term.gravity = {{0, -9.81, 0}};
   if constexpr (requires { term.r_0; }) term.r_0 = 0.015;
+  if constexpr (requires { term.separation; }) {
+    term.separation = 50;
+    term.reach = 0.012;
+  }
   return term;
 }
 
@@ -180,7 +185,7 @@ TEST(Terms, TurnWithTheirVectors) {
   const auto turn = [&]<class F>(F) {
     for (auto& value : askew.store.get<F>()) value = turned(value);
   };
-  Fields<x, v, v_friction, grad_rho_l>::for_each(turn);
+  Fields<x, v, v_friction, grad_rho_l, acc, stress>::for_each(turn);
   Bench<2> a(straight), b(askew);
   test::for_each_term([&]<class Term>(Term) {
     auto term = example<Term>();
@@ -310,6 +315,59 @@ TEST(Terms, SymmetricCentralForcesHaveNoTorque) {
   };
   terms::PressureForms::for_each(torque);
   terms::ArtificialViscosities::for_each(torque);
+}
+
+// ---- Pairs
+// ---------------------------------------------------------------------------------------------------------
+
+/// Force per mass that pushes apart two particles of one spacing, r apart, without pressure.
+template <int N>
+double push_apart(const terms::PressureSymmetric& term, double r, double spacing) {
+  const double support = 2.6 * spacing;
+  const KernelChoice kernel{};
+  terms::PressureSymmetric::reads::Row<N, double> row{};
+  row.m = 1000 * std::pow(spacing, N);
+  row.rho = 1000;
+  Pair<N, double> ab{};
+  ab.dx[0] = r;
+  ab.r = r;
+  ab.r_sq = sq(r);
+  ab.inv_rho = 1 / row.rho;
+  ab.grad_w = ab.dx * (kernel.slope_over_R<N>(r / support) / std::pow(support, N + 2));
+  return term(row, row, ab).acc[0];
+}
+
+// Criterion: the artificial pressure of `symmetric` pushes apart below its reach, by the number of its formula with the
+// slope of Wendland's C2 in 2-D written out (1e-14), and is zero at and beyond its reach.
+TEST(Terms, SymmetricKeepsPairsApartBelowItsReachOnly) {
+  terms::PressureSymmetric term;
+  term.separation = 80;
+  term.reach = 0.005;
+  for (const double r : {0.001, 0.0025, 0.0049}) {
+    const double H = 0.026, R = r / H, pi = std::acos(-1.0);
+    const double slope = -140 / (pi * H * H * H) * R * (1 - R) * (1 - R) * (1 - R);
+    const double expected = -0.1 * (80.0 / 1000) * sq(1 - sq(r / 0.005)) * slope;
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(push_apart<2>(term, r, 0.01) / expected, 1, 1e-14) << r;
+  }
+  for (const double r : {0.005, 0.00501, 0.01, 0.02}) EXPECT_EQ(push_apart<2>(term, r, 0.01), 0) << r;
+}
+
+// Criterion: with the strength of the preset `recommended`, two particles without pressure that meet at 0.7 of the
+// expected speed are turned back before they coincide (0.1 spacings), in each dimension: the work per mass of a push on
+// both, from its reach to there, exceeds (0.7 U)^2/4.
+TEST(Terms, TheRecommendedSeparationStopsPairsThatMeet) {
+  in_each_dimension([]<int N>() {
+    const double U = 3, spacing = 0.01;
+    terms::PressureSymmetric term;
+    term.separation = presets::Recommended::separation * sq(U);
+    term.reach = presets::Recommended::reach * spacing;
+    double work = 0;
+    const double dr = 1e-4 * spacing;
+    for (double r = 0.1 * spacing + dr / 2; r < term.reach; r += dr) work += dr * push_apart<N>(term, r, spacing);
+    EXPECT_GT(work, sq(0.7 * U) / 4) << N;
+    std::printf("    %d-D: up to %.3g of the expected speed\n", N, 2 * std::sqrt(work) / U);
+  });
 }
 
 // ---- Energy

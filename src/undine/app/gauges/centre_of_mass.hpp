@@ -27,7 +27,7 @@ class CentreOfMass : public Gauge<N> {
     return all;
   }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     std::vector<double> row;
     for (int material = -1; material < static_cast<int>(names_.size()); ++material) {
       const Vec<N> centre = centre_of(flow, material);
@@ -37,7 +37,7 @@ class CentreOfMass : public Gauge<N> {
   }
 
  private:
-  static Vec<N> centre_of(const WeaklyCompressible<N>& flow, int material) {
+  static Vec<N> centre_of(const Flow<N>& flow, int material) {
     const auto x = flow.store().template get<field::x>();
     const auto m = flow.store().template get<field::m>();
     Vec<N> moment{};

@@ -21,7 +21,7 @@ class Coincidence : public Gauge<N> {
 
   std::vector<SeriesColumn> columns() const override { return {{"pairs"}, {"closest"}}; }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     const IndexRange fluid = flow.store().range(Group::fluid);
     const auto x = flow.store().template get<field::x>().subspan(fluid.begin, fluid.size());
     CellGrid<N> grid;

@@ -39,7 +39,7 @@ class MeanDensity : public Gauge<N> {
     return {{"carried", "kg/m^3"}, {"occupied", "kg/m^3"}, {"height", "m"}};
   }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     const IndexRange fluid = flow.store().range(Group::fluid);
     if (fluid.size() == 0) return {nan, nan, nan};
     const auto rho = flow.store().template get<field::rho>();

@@ -35,7 +35,7 @@ double value_of(std::string_view name, const auto& values) {
 /// What the fluid should be at a place.
 template <int N>
 struct State {
-  double rho, p;
+  double rho, p, e;
   Vec<N> v;
 };
 
@@ -49,7 +49,10 @@ State<N> state_at(const auto& solution_at_t, const Vec<N>& d, const std::array<V
   if constexpr (frame == Frame::shear) point[0] = dot(d, axes[1]);
   if constexpr (frame == Frame::plane) point = {{dot(d, axes[0]), dot(d, axes[1])}};
   const auto values = solution_at_t(point);
-  State<N> state{value_of<Solution>("density", values), value_of<Solution>("pressure", values), {}};
+  State<N> state{value_of<Solution>("density", values),
+                 value_of<Solution>("pressure", values),
+                 value_of<Solution>("energy", values),
+                 {}};
   const double v = value_of<Solution>("velocity", values);
   if constexpr (frame == Frame::line || frame == Frame::shear) state.v = v * axes[0];
   if constexpr (frame == Frame::radius) state.v = point[0] > 0 ? v / point[0] * d : Vec<N>{};
@@ -164,6 +167,8 @@ void ErrorGauge<N>::read_fields(const Table& table) {
         }
         if (field_index<S>("pressure") >= 0) all.push_back({usual.emplace_back("pressure"), "p", "Pa"});
         if (field_index<S>("density") >= 0) all.push_back({usual.emplace_back("density"), "rho", "kg/m^3"});
+        // Liquids have none, so it is not usual.
+        if (field_index<S>("energy") >= 0) all.push_back({"energy", "e", "J/kg"});
       },
       solution_);
   std::vector<std::string> valid;
@@ -185,13 +190,14 @@ std::vector<SeriesColumn> ErrorGauge<N>::columns() const {
 }
 
 template <int N>
-std::vector<double> ErrorGauge<N>::read(const WeaklyCompressible<N>& flow) const {
+std::vector<double> ErrorGauge<N>::read(const Flow<N>& flow) const {
   const Store<N>& store = flow.store();
   const auto x = store.template get<field::x>();
   const auto v = store.template get<field::v>();
   const auto m = store.template get<field::m>();
   const auto rho = store.template get<field::rho>();
   const auto p = store.template get<field::p>();
+  const auto e = store.template get<field::e>();
   const auto counts = [&](std::size_t i) { return !region_ || region_->inside(widen(flow.domain().wrapped(x[i]))); };
   return std::visit(
       [&]<class S>(const S& solution) -> std::vector<double> {
@@ -224,6 +230,8 @@ std::vector<double> ErrorGauge<N>::read(const WeaklyCompressible<N>& flow) const
               sum.add(volume, p[i] - shift - wanted.p, wanted.p);
             } else if (f.name == "density") {
               sum.add(volume, rho[i] - wanted.rho, wanted.rho);
+            } else if (f.name == "energy") {
+              sum.add(volume, e.empty() ? std::nan("") : e[i] - wanted.e, wanted.e);
             } else if (f.component < 0) {
               sum.add(volume, norm(v[i] - wanted.v), norm(wanted.v));
             } else {

@@ -22,15 +22,15 @@ class ErrorGauge : public Gauge<N> {
   ErrorGauge(const Table& table, const GaugeContext<N>& context);
 
   std::vector<SeriesColumn> columns() const override;
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override;
+  std::vector<double> read(const Flow<N>& flow) const override;
 
  private:
-  /// What is compared: pressure, density, the velocity as a vector, or one component of it.
+  /// What is compared: pressure, density, internal energy, the velocity as a vector, or one component of it.
   struct Field {
     std::string name, column, unit;
     int component = -1;
   };
-  static constexpr std::size_t most_fields = 3 + N;
+  static constexpr std::size_t most_fields = 4 + N;
 
   void read_solution(const Table& table);
   void read_axes(const Table& table, const GaugeContext<N>& context);

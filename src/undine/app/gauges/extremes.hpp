@@ -18,7 +18,7 @@ class Extremes : public Gauge<N> {
     return {{"v_max", "m/s"}, {"rho_min", "kg/m^3"}, {"rho_max", "kg/m^3"}, {"p_min", "Pa"}, {"p_max", "Pa"}};
   }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     if (flow.store().range(Group::fluid).size() == 0) return {nan, nan, nan, nan, nan};
     const auto v = flow.store().template get<field::v>();
     const auto rho = flow.store().template get<field::rho>();

@@ -23,7 +23,7 @@ class Front : public Gauge<N> {
 
   std::vector<SeriesColumn> columns() const override { return {{"front", "m"}}; }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     const IndexRange fluid = flow.store().range(Group::fluid);
     const auto ignored = static_cast<std::size_t>(ignore_);
     if (ignored >= fluid.size()) return {nan};

@@ -14,7 +14,7 @@
 #include "undine/geometry/surface.hpp"
 #include "undine/io/case/table.hpp"
 #include "undine/io/time_series.hpp"
-#include "undine/schemes/weakly_compressible.hpp"
+#include "undine/schemes/flow.hpp"
 
 namespace undine {
 
@@ -43,7 +43,7 @@ class Gauge {
   /// What `read` gives, without the time.
   virtual std::vector<SeriesColumn> columns() const = 0;
   /// One value per column, in SI units; NaN where there is nothing to measure.
-  virtual std::vector<double> read(const WeaklyCompressible<N>& flow) const = 0;
+  virtual std::vector<double> read(const Flow<N>& flow) const = 0;
   /// Whether field acc of the walls must hold the forces from the fluid before `read`.
   virtual bool needs_wall_forces() const { return false; }
 };
@@ -94,9 +94,9 @@ void require_walls(const Table& table, const GaugeContext<N>& context) {
 }
 
 template <int N>
-InterpolationSource<N> source_of(const WeaklyCompressible<N>& flow) {
+InterpolationSource<N> source_of(const Flow<N>& flow) {
   Support support = flow.options().support;
-  support.per_particle = flow.options().rho_law;
+  support.per_particle = flow.options().supports_vary();
   return {flow.store(), flow.neighbours(), flow.domain(),
           flow.options().kernels[static_cast<std::size_t>(KernelRole::density)], support};
 }

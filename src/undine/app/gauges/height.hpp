@@ -41,7 +41,7 @@ class Height : public Gauge<N> {
 
   std::vector<SeriesColumn> columns() const override { return {{"height", "m"}}; }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     const auto source = source_of(flow);
     const double step = std::abs(to_ - from_) / static_cast<double>(intervals_);
     double wetted = 0, surface = 0;

@@ -41,7 +41,7 @@ struct HeightProfile {
 
 /// The fluid's particles of one material (all: -1) along an axis; `up` is 1 or -1.
 template <int N>
-HeightProfile profile_of(const WeaklyCompressible<N>& flow, int material, int axis, double up, double spacing) {
+HeightProfile profile_of(const Flow<N>& flow, int material, int axis, double up, double spacing) {
   HeightProfile profile{{}, {}, spacing};
   const IndexRange fluid = flow.store().range(Group::fluid);
   const auto x = flow.store().template get<field::x>();

@@ -24,7 +24,7 @@ class Leak : public Gauge<N> {
 
   std::vector<SeriesColumn> columns() const override { return {{"leaked"}, {"fraction"}, {"deepest", "m"}}; }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     const IndexRange fluid = flow.store().range(Group::fluid);
     const auto x = flow.store().template get<field::x>();
     double leaked = 0, deepest = 0;

@@ -41,7 +41,7 @@ class MixedLayer : public Gauge<N> {
 
   std::vector<SeriesColumn> columns() const override { return {{"width", "m"}, {"overlap", "m"}}; }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     const HeightProfile upper = profile_of(flow, upper_, axis_, up_, spacing_);
     const HeightProfile lower = profile_of(flow, lower_, axis_, up_, spacing_);
     if (upper.z.empty() || lower.z.empty()) return {nan, nan};

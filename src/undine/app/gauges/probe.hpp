@@ -33,7 +33,7 @@ class Probe : public Gauge<N> {
     return all;
   }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     Interpolated<N> here = interpolate(source_of(flow), at_);
     if (here.weight < wet_) here = {};  // a sensor in the air, with a drop on it at most
     const double scale = shepard_ ? 1 : here.weight;

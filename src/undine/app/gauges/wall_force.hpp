@@ -37,7 +37,7 @@ class WallForce : public Gauge<N> {
     return all;
   }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     const auto x = flow.store().template get<field::x>();
     const auto m = flow.store().template get<field::m>();
     const auto acc = flow.store().template get<field::acc>();

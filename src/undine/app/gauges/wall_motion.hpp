@@ -22,7 +22,7 @@ class WallJitter : public Gauge<N> {
 
   std::vector<SeriesColumn> columns() const override { return {{"speed", "m/s"}, {"particles"}}; }
 
-  std::vector<double> read(const WeaklyCompressible<N>& flow) const override {
+  std::vector<double> read(const Flow<N>& flow) const override {
     const IndexRange fluid = flow.store().range(Group::fluid);
     const auto x = flow.store().template get<field::x>();
     const auto v = flow.store().template get<field::v>();

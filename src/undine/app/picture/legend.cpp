@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,38 @@ std::string trimmed(std::string text) {
   text.resize(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;
+}
+
+struct Scale {
+  std::vector<std::string> labels;  ///< evenly from the lowest value to the highest
+  double share(std::size_t k) const { return static_cast<double>(k) / static_cast<double>(labels.size() - 1); }
+};
+
+Scale scale_of(const LegendText& text, std::size_t ticks) {
+  Scale scale{std::vector<std::string>(ticks)};
+  for (std::size_t k = 0; k < ticks; ++k) {
+    const double value = text.low + (text.high - text.low) * scale.share(k);
+    const bool zero = std::abs(value) < 1e-9 * std::max(std::abs(text.low), std::abs(text.high));
+    scale.labels[k] = short_number(zero ? 0 : value, k == 0 || k == ticks - 1 ? 4 : 3);
+  }
+  return scale;
+}
+
+/// Five numbers, or fewer where those would run into each other.
+Scale scale_for(Canvas& canvas, const LegendText& text, double size, double width) {
+  for (const std::size_t ticks : {5, 3}) {
+    Scale scale = scale_of(text, ticks);
+    double end = 0;  // of the label before
+    bool fits = true;
+    for (std::size_t k = 0; k < ticks; ++k) {
+      const double own = canvas.text_width(size, scale.labels[k]);
+      const double begin = width * scale.share(k) - own * scale.share(k == 0 || k == ticks - 1 ? k : ticks / 2);
+      fits = fits && (k == 0 || begin > end + 0.7 * size);
+      end = begin + own;
+    }
+    if (fits) return scale;
+  }
+  return scale_of(text, 2);
 }
 
 }  // namespace
@@ -64,14 +97,14 @@ void draw_legend(Canvas& canvas, const Area& area, const ColourMap& map, const L
   canvas.text(area.left, area.top + 0.9 * size, size, text.heading, Align::left, ink);
   const int columns = static_cast<int>(area.width);
   for (int i = 0; i < columns; ++i) canvas.rectangle({left + i, top, 1, bar}, map.at((i + 0.5) / columns));
-  constexpr int ticks = 5;
-  for (int k = 0; k < ticks; ++k) {
-    const double share = static_cast<double>(k) / (ticks - 1), value = text.low + (text.high - text.low) * share;
-    const bool zero = std::abs(value) < 1e-9 * std::max(std::abs(text.low), std::abs(text.high));
-    const Align align = k == 0 ? Align::left : k == ticks - 1 ? Align::right : Align::centre;
-    canvas.text(area.left + area.width * share, top + bar + 1.1 * size, 0.9 * size,
-                short_number(zero ? 0 : value, k == 0 || k == ticks - 1 ? 4 : 3), align, ink);
-  }
+  const Scale scale = scale_for(canvas, text, 0.9 * size, area.width);
+  const std::size_t last = scale.labels.size() - 1;
+  for (std::size_t k = 0; k <= last; ++k)
+    canvas.text(area.left + area.width * scale.share(k), top + bar + 1.1 * size, 0.9 * size, scale.labels[k],
+                k == 0      ? Align::left
+                : k == last ? Align::right
+                            : Align::centre,
+                ink);
 }
 
 }  // namespace undine

@@ -70,11 +70,16 @@ Json fields_json(const OwnedFrame& frame) {
   return fields;
 }
 
-/// Bytes that a particle takes in this snapshot.
-double bytes_per_particle(const OwnedFrame& frame, bool rounded) {
+/// Bytes that a particle takes at one of so many times, by the last two of them: what both share, such as walls at
+/// rest, is on a page once.
+double bytes_per_particle(const OwnedFrame& before, const OwnedFrame& last, std::size_t frames, bool rounded) {
   Blocks blocks;
-  frame_json(frame, 0, {.rounded = rounded}, blocks);
-  return static_cast<double>(blocks.bytes()) / static_cast<double>(std::max<std::size_t>(frame.particles, 1));
+  frame_json(before, 0, {.rounded = rounded}, blocks);
+  const auto first = static_cast<double>(blocks.bytes());
+  frame_json(last, 0, {.rounded = rounded}, blocks);
+  const double more = static_cast<double>(blocks.bytes()) - first;
+  const auto times = static_cast<double>(frames);
+  return (first + (times - 1) * more) / times / static_cast<double>(std::max<std::size_t>(last.particles, 1));
 }
 
 class Bounds {
@@ -145,10 +150,12 @@ Thinning fit(std::size_t room, std::size_t frames, std::size_t particles, double
 }
 
 Json particles_header(const RunFolder& run, const OwnedFrame& first) {
-  const OwnedFrame last = read_positions(run.frames.back().file);
   Bounds bounds(first.dimensions);
   bounds.add(*first.find(first.position));
-  bounds.add(*last.find(last.position));
+  if (run.frames.size() > 1) {
+    const OwnedFrame last = read_positions(run.frames.back().file);
+    bounds.add(*last.find(last.position));
+  }
   return {{"dimensions", first.dimensions},
           {"spacing", run.spacing(first)},
           {"low", bounds.low()},
@@ -162,7 +169,10 @@ Json particles_header(const RunFolder& run, const OwnedFrame& first) {
 Json particles_of(const RunFolder& run, std::size_t room, Blocks& blocks, std::vector<std::string>& notes) {
   if (run.frames.empty()) return nullptr;
   const OwnedFrame last = read_snapshot(run.frames.back().file);
-  const double exact = bytes_per_particle(last, false), small = bytes_per_particle(last, true);
+  const std::size_t times = run.frames.size();
+  const OwnedFrame before = read_snapshot(run.frames[times - std::min<std::size_t>(2, times)].file);
+  const double exact = bytes_per_particle(before, last, times, false);
+  const double small = bytes_per_particle(before, last, times, true);
   const Thinning thin = fit(room, run.frames.size(), last.particles, exact, small);
 
   Json frames = Json::array();

@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view place_of_data = "<!--UNDINE-DATA-->";
+constexpr int most_tries = 4;
 constexpr std::size_t reserve = 100'000;  ///< bytes for what the plan of a page does not count
 
 /// JSON that can stand in a page: "<" would end the element that holds it, where "/script" follows.
@@ -37,8 +38,7 @@ std::string page_with(Json data, const Blocks& blocks) {
   return text.append(page.substr(at + place_of_data.size()));
 }
 
-WrittenReport write_page(const fs::path& file, const Json& data, const Blocks& blocks) {
-  const std::string text = page_with(data, blocks);
+WrittenReport write_page(const fs::path& file, const Json& data, const std::string& text) {
   write_text_atomically(file, text);
   return {file, text.size(), data["notes"].get<std::vector<std::string>>()};
 }
@@ -52,9 +52,16 @@ WrittenReport write_run(const ReportOptions& options, const fs::path& file) {
         {.what = fmt::format("a report cannot be as small as {:.3g} MB", options.megabytes),
          .why = fmt::format("the page without any data takes {:.2g} MB", static_cast<double>(fixed) * 1e-6),
          .fix = "give a larger --max-mb"});
-  Blocks blocks;
-  const Json data = run_data(run, limit - fixed, blocks);
-  return write_page(file, data, blocks);
+  // What a page takes is foreseen from two snapshots; where that was too little, it is made anew with less room.
+  std::size_t room = limit - fixed;
+  for (int tries = 1;; ++tries) {
+    Blocks blocks;
+    const Json data = run_data(run, room, blocks);
+    const std::string text = page_with(data, blocks);
+    if (text.size() <= limit || tries == most_tries) return write_page(file, data, text);
+    room = static_cast<std::size_t>(0.95 * static_cast<double>(room) * static_cast<double>(limit) /
+                                    static_cast<double>(text.size()));
+  }
 }
 
 }  // namespace
@@ -65,7 +72,8 @@ WrittenReport write_report(const ReportOptions& options) {
   for (const fs::path& member : study_members(options.folder))
     if (!fs::exists(member / "report.html"))
       write_run({.folder = member, .out = {}, .megabytes = options.megabytes}, member / "report.html");
-  return write_page(file, study_data(options.folder), {});
+  const Json data = study_data(options.folder);
+  return write_page(file, data, page_with(data, {}));
 }
 
 int report_command(const ReportOptions& options) {

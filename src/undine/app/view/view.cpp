@@ -7,18 +7,17 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <httplib.h>
 #include <sys/random.h>
 
 #include "undine/app/report/report.hpp"
+#include "undine/app/run_control.hpp"
+#include "undine/app/view/guarded_server.hpp"
 #include "undine/app/view/view_data.hpp"
 #include "undine/core/error.hpp"
 
 namespace undine {
 namespace {
 
-constexpr int threads = 16;
-constexpr int patience_s = 5;                ///< for a client that is slow to send or to take
 constexpr std::size_t usual_most = 200'000;  ///< particles of a frame where the page does not say
 constexpr std::string_view place_of_data = "<!--UNDINE-DATA-->";
 
@@ -64,7 +63,8 @@ class Answers {
   Answers(const ViewOptions& options, std::string token)
       : data_(options.folder), page_(page_for(options.follow)), token_(std::move(token)) {}
 
-  /// Names under which a browser may ask; empty: any. Guards against pages that make their name point to this machine.
+  /// Names under which a browser may ask; empty: any, and then nobody may control the run. Guards against pages that
+  /// make their name point to this machine.
   void set_hosts(std::vector<std::string> hosts) { hosts_ = std::move(hosts); }
   const std::string& token() const { return token_; }
 
@@ -95,15 +95,36 @@ class Answers {
                             same(path.substr(1, token_.size()), token_) && path[token_.size() + 1] == '/';
     if (!host_fits || !token_fits)
       return refuse(response, 403, "this address needs the token that `undine view` printed");
-    if (request.method != "GET" && request.method != "HEAD") return refuse(response, 405, "only GET is answered");
     const std::string_view rest = path.substr(token_.size() + 2);
+    if (rest == "control") return control(request, response);
+    if (request.method != "GET" && request.method != "HEAD") return refuse(response, 405, "only GET is answered");
     if (rest.empty()) return response.set_content(page_, "text/html; charset=utf-8");
     if (rest == "data.json") return response.set_content(data_.all(), "application/json");
-    if (rest == "state.json") return response.set_content(data_.state(), "application/json");
+    if (rest == "state.json") return response.set_content(data_.state(local()), "application/json");
     if (rest == "frame.json")
       return response.set_content(data_.frame(whole(request, "number", 0), whole(request, "most", usual_most)),
                                   "application/json");
     refuse(response, 404, "there is no such page");
+  }
+
+  bool local() const { return !hosts_.empty(); }
+
+  /// Whether the request comes from a page of ours, or from no page at all.
+  static bool from_here(const httplib::Request& request) {
+    const std::string site = request.get_header_value("Sec-Fetch-Site"), origin = request.get_header_value("Origin");
+    return (site.empty() || site == "same-origin") &&
+           (origin.empty() || origin == "http://" + request.get_header_value("Host"));
+  }
+
+  /// POST control?wish=pause|run|stop
+  void control(const httplib::Request& request, httplib::Response& response) const {
+    if (request.method != "POST") return refuse(response, 405, "only POST changes a run");
+    if (!from_here(request)) return refuse(response, 403, "another site's page asks for this");
+    if (!local()) return refuse(response, 403, "runs are controlled from their own machine only: leave out --host");
+    const std::string wish = request.get_param_value("wish");
+    if (!is_run_wish(wish)) return refuse(response, 400, "'wish' is run, pause or stop");
+    if (!data_.send(wish)) return refuse(response, 409, "no run that was started with --control goes on here");
+    response.set_content(wish + "\n", "text/plain");
   }
 
   ViewData data_;
@@ -115,18 +136,13 @@ class Answers {
 
 int view_command(const ViewOptions& options) {
   Answers answers(options, random_token());
-  httplib::Server server;
-  server.new_task_queue = [] { return new httplib::ThreadPool(threads); };
+  GuardedServer server;
+  server.set_tcp_nodelay(true);
   // Only after a server that ended: two at one port would share its visitors.
   server.set_socket_options([](socket_t socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   });
-  server.set_read_timeout(patience_s);
-  server.set_write_timeout(patience_s);
-  server.set_keep_alive_timeout(2);
-  server.set_keep_alive_max_count(50);
-  server.set_payload_max_length(1024);
   server.set_pre_routing_handler([&](const httplib::Request& request, httplib::Response& response) {
     answers(request, response);
     return httplib::Server::HandlerResponse::Handled;

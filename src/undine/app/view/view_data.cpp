@@ -7,6 +7,7 @@
 #include "undine/app/report/blocks.hpp"
 #include "undine/app/report/particles.hpp"
 #include "undine/app/report/run_data.hpp"
+#include "undine/app/run_control.hpp"
 #include "undine/core/error.hpp"
 #include "undine/io/snapshot.hpp"
 
@@ -39,6 +40,11 @@ Json times_json(const RunFolder& run) {
 Json progress_of(const fs::path& folder) {
   const fs::path file = folder / "progress.json";
   return fs::is_regular_file(file) ? read_json(file) : Json(nullptr);
+}
+
+/// Whether the run goes on and was started with --control.
+bool listens(const RunFolder& run, const Json& progress) {
+  return run.record.value("status", "") == "running" && progress.is_object() && progress.value("control", false);
 }
 
 }  // namespace
@@ -76,11 +82,18 @@ std::string ViewData::all() const {
   return with_blocks(std::move(data), blocks);
 }
 
-std::string ViewData::state() const {
+std::string ViewData::state(bool may_control) const {
   const std::lock_guard lock(reading_);
   const RunFolder run = RunFolder::open(folder_);
-  return to_line(
-      Json{{"status", run.record.value("status", "")}, {"times", times_of(run)}, {"progress", progress_of(folder_)}});
+  const Json progress = progress_of(folder_);
+  return to_line(Json{{"status", run.record.value("status", "")},
+                      {"times", times_of(run)},
+                      {"progress", progress},
+                      {"control", may_control && listens(run, progress)}});
+}
+
+bool ViewData::send(std::string_view wish) const {
+  return listens(RunFolder::open(folder_), progress_of(folder_)) && send_run_wish(folder_, wish);
 }
 
 std::string ViewData::frame(std::size_t number, std::size_t most) const {

@@ -1,0 +1,7 @@
+#include "undine/schemes/gas_impl.hpp"
+
+namespace undine {
+
+template class Gas<2>;
+
+}  // namespace undine

@@ -1,0 +1,399 @@
+#pragma once
+// The definitions of Gas<N>, compiled once for each N in gas_Nd.cpp.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "undine/core/error.hpp"
+#include "undine/schemes/gas.hpp"
+#include "undine/schemes/gas_rules.hpp"
+#include "undine/schemes/particle_rules.hpp"
+#include "undine/terms/density/grad_h.hpp"
+
+namespace undine {
+namespace {
+
+using namespace field;
+using walls::WallDensity;
+
+}  // namespace
+
+template <int N>
+Gas<N>::Gas(Store<N> store, const Domain<N>& domain, Options options, const std::vector<double>& memory)
+    : Gas(std::move(store), domain, std::make_shared<const Options>(std::move(options)), memory) {}
+
+template <int N>
+Gas<N>::Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options,
+            const std::vector<double>& memory)
+    : Flow<N>(std::move(store), domain, options), options_(*options) {
+  mirrored_ = ghosts_.has_value();
+  configure();
+  make_plan();
+  this->start(memory);
+}
+
+/// Tells each sweep which of its terms are in use, and between which groups.
+template <int N>
+void Gas<N>::configure() {
+  const std::array<bool, group_count> from{true, mirrored_}, from_fluid{true, false};
+  auto continuity = typename Sweeps::Continuity{options_.continuity};
+  // A summed density changes as its derivative says, whichever continuity form the case names.
+  if (options_.density != DensityForm::evolved) continuity.choose(terms::ContinuityForms::index<terms::Continuity>());
+  const auto chosen = []<class Term>(const std::optional<Term>& term) { return term.value_or(Term{}); };
+
+  density_.template use<0>() = {options_.grad_h, true, from, {}};
+  rate_.template use<0>() = {continuity, true, from, {}};
+  foresight_.template use<0>() = {{}, true, from, {}};
+  gradient_.template use<0>() = {{}, true, from, {}};
+  const auto set = [&](auto& sweep, const std::array<bool, group_count>& sources, bool rates) {
+    sweep.template use<Sweeps::pressure>() = {options_.pressure, true, sources, {}};
+    sweep.template use<Sweeps::energy>() = {options_.energy, rates, sources, {}};
+    sweep.template use<Sweeps::continuity>() = {continuity, rates && options_.takes_density_rate(), sources, {}};
+    sweep.template use<Sweeps::artificial>() = {
+        chosen(options_.artificial), options_.artificial.has_value(), sources, {}};
+    sweep.template use<Sweeps::conductivity>() = {
+        chosen(options_.conductivity), rates && options_.conductivity.has_value(), sources, {}};
+    sweep.template use<Sweeps::stress>() = {chosen(options_.stress), options_.stress.has_value(), sources, {}};
+    sweep.template use<Sweeps::signal>() = {{}, rates, sources, {}};
+    sweep.take_from(sources);  // wall particles that only repel are none of its neighbours
+  };
+  set(force_, from, true);
+  set(wall_force_, from_fluid, false);
+
+  const terms::Repulsion repulsion = options_.repulsion.value_or(terms::Repulsion{});
+  push_.template use<0>() = {repulsion, options_.repulsion.has_value(), {false, true}, {}};
+  pushed_back_.template use<0>() = {repulsion, options_.repulsion.has_value(), from_fluid, {}};
+  push_.template use<1>().active = pushed_back_.template use<1>().active = false;
+}
+
+/// What one evaluation of the rates consists of. The order follows from what the stages read and write.
+template <int N>
+void Gas<N>::make_plan() {
+  add_density_stages();
+  this->add_update("equation of state", Group::fluid, rules::ApplyThermalEquationOfState{options_.materials});
+  // One where nothing computes them.
+  FieldSet ones;
+  if (!options_.iterates()) ones |= Fields<omega>::set();
+  if (!(options_.artificial && options_.limiter)) ones |= Fields<balsara>::set();
+  add_ghost_stage("ghosts' state", Fields<rho, p, c, e, omega, alpha_v>::set() | ones);
+  add_gradient_stages();
+  this->add_sweep(force_, mirrored_);
+  if (options_.repulsion) this->add_sweep(push_, true);
+  this->add_body_force_stage(options_.repulsion.has_value());
+  if (options_.foresees()) {
+    add_ghost_stage("ghosts' acceleration", Fields<acc>::set());
+    this->add_sweep(foresight_, mirrored_);
+  }
+
+  FieldSet given = Fields<x, v, m, rho, e, h, alpha_v, x_list>::set();
+  if (options_.smoothing == SmoothingLaw::density) given |= Fields<rho_0>::set();
+  if (options_.stress) given |= Fields<mu>::set();
+  this->finish_plan({given, Fields<p, c, acc, de, drho, v_signal, omega, balsara>::set(),
+                     Fields<acc_old, x_start, v_start, rho_start>::set(), Resources(Group::fluid, ones)});
+  for (const int f : {omega::id, balsara::id})
+    if (ones[static_cast<std::size_t>(f)]) std::ranges::fill(store_.raw(f), 1.0);
+}
+
+template <int N>
+void Gas<N>::add_density_stages() {
+  this->add_summation_stages(options_.density, mirrored_);
+  if (!options_.iterates()) return;
+  Resources reads(Group::fluid, Fields<x, m, h>::set());
+  if (mirrored_) reads.add(Group::wall, Fields<x, m>::set());
+  plan_.add({"density and support", reads, Resources(Group::fluid, Fields<h, rho, omega, rho_sum, rho_sum_h>::set()),
+             [this] { find_supports(); }});
+}
+
+/// What follows from the velocity gradient.
+template <int N>
+void Gas<N>::add_gradient_stages() {
+  if (!options_.takes_velocity_gradient()) return;
+  this->add_sweep(gradient_, mirrored_);
+  FieldSet answer;
+  if (options_.artificial && options_.limiter) {
+    this->add_update("limiter", Group::fluid, rules::LimitViscosity<N>{options_.support.kappa});
+    answer |= Fields<balsara>::set();
+  }
+  if (options_.stress) {
+    this->add_update("viscous stress", Group::fluid, rules::TakeViscousStress<N>{});
+    answer |= Fields<stress>::set();
+  }
+  if (answer.any()) add_ghost_stage("ghosts' viscosity", answer);
+}
+
+template <int N>
+void Gas<N>::add_ghost_stage(const char* name, const FieldSet& fields) {
+  if (!mirrored_) return;
+  plan_.add({name, Resources(Group::fluid, fields), Resources(Group::wall, fields),
+             [this, fields] { ghosts_->mirror(store_, fields); }});
+}
+
+/// Density and support of every particle so that rho H^N = m q^N. Springel & Hernquist (2002), eq. 6; Price (2012), eq.
+/// 10.
+template <int N>
+void Gas<N>::find_supports() {
+  constexpr int most_rounds = 100;
+  std::vector<Vec<2>> brackets;
+  long builds = -1;
+  for (int round = 0; round < most_rounds; ++round) {
+    if (this->list_builds() != builds) {  // particles were sorted: begin anew
+      brackets.assign(store_.range(Group::fluid).size(), Vec<2>{{0, std::numeric_limits<double>::max()}});
+      builds = this->list_builds();
+    }
+    this->run(density_);
+    if (!adapt_supports(brackets)) {
+      const auto H = store_.template get<h>();
+      const auto sum = store_.template get<rho_sum>(), slope = store_.template get<rho_sum_h>();
+      auto density = store_.template get<rho>(), factor = store_.template get<omega>();
+      for_each_particle(store_, Group::fluid, [&](std::size_t i) {
+        density[i] = sum[i];
+        // Of a particle at the brink of having no neighbours it would be 0.
+        factor[i] = std::max(0.05, terms::grad_h_factor<N>(H[i], sum[i], slope[i]));
+      });
+      if (ghosts_) ghosts_->mirror(store_, Fields<h>::set());
+      return;
+    }
+    this->refresh_lists();  // which a larger H may outgrow
+  }
+  no_support_found();
+}
+
+/// One round of Newton's method with bisection where that would leave what is known to hold the solution. Whether some
+/// H changed.
+template <int N>
+bool Gas<N>::adapt_supports(std::vector<Vec<2>>& brackets) {
+  const bool in_float =
+      options_.backend.kind == BackendKind::threads && options_.backend.precision == PairPrecision::mixed;
+  const double tolerance = in_float ? 3e-6 : 1e-11;
+  const double q = options_.support_over_spacing;
+  const std::size_t first = store_.range(Group::fluid).begin;
+  auto H = store_.template get<h>();
+  const auto mass = store_.template get<m>(), sum = store_.template get<rho_sum>(),
+             slope = store_.template get<rho_sum_h>();
+  const double changed = total_over(store_, Group::fluid, [&](std::size_t i) {
+    const terms::SupportState state{mass[i], H[i], sum[i], slope[i]};
+    const double mismatch = terms::support_mismatch<N>(state, q);
+    Vec<2>& bracket = brackets[i - first];
+    if (mismatch > 0) {
+      bracket[1] = std::min(bracket[1], H[i]);
+    } else {
+      bracket[0] = std::max(bracket[0], H[i]);
+    }
+    // A kernel that jumps at its edge leaves a bracket without a solution.
+    if (std::abs(mismatch) <= tolerance || bracket[1] - bracket[0] <= 0.01 * tolerance * H[i]) return 0.0;
+    const double next = terms::next_support<N>(state, q);
+    H[i] = next > bracket[0] && next < bracket[1] ? next : std::sqrt(bracket[0] * bracket[1]);
+    return 1.0;
+  });
+  return changed > 0;
+}
+
+template <int N>
+void Gas<N>::no_support_found() const {
+  const auto H = store_.template get<h>();
+  const auto mass = store_.template get<m>(), sum = store_.template get<rho_sum>();
+  const auto mismatch = [&](std::size_t i) {
+    return std::abs(sum[i] / mass[i] * std::pow(H[i] / options_.support_over_spacing, N) - 1);
+  };
+  const IndexRange fluid = store_.range(Group::fluid);
+  std::size_t worst = fluid.begin;
+  for (std::size_t i = fluid.begin; i < fluid.end; ++i)
+    if (!(mismatch(i) <= mismatch(worst))) worst = i;
+  throw RunError({.what = fmt::format("no support radius fits the density of particle {} at t = {:.6g} s",
+                                      store_.ids()[worst], time_),
+                  .why = fmt::format("after 100 rounds H = {:.6g} m, rho = {:.6g} kg/m^3", H[worst], sum[worst]),
+                  .fix = "look for particles that coincide, or take scheme.smoothing.law = \"density\""});
+}
+
+/// Updates that the lists must see, after a look at what the moves left.
+template <int N>
+void Gas<N>::prepare() {
+  check_state();
+  if (options_.smoothing == SmoothingLaw::density)
+    update(store_, Group::fluid, rules::FollowDensity<N>{options_.support.uniform});
+}
+
+template <int N>
+void Gas<N>::check_state() const {
+  const auto energy = store_.template get<e>(), density = store_.template get<rho>();
+  const auto bad = [&](std::size_t i) { return !(energy[i] >= 0) || !(density[i] > 0); };
+  if (total_over(store_, Group::fluid, [&](std::size_t i) { return bad(i) ? 1.0 : 0.0; }) == 0) return;
+  const IndexRange fluid = store_.range(Group::fluid);
+  std::size_t i = fluid.begin;
+  while (!bad(i)) ++i;
+  const bool cold = !(energy[i] >= 0);
+  throw RunError(
+      {.what = fmt::format("the {} of particle {} is {:.4g} {} at t = {:.6g} s", cold ? "internal energy" : "density",
+                           store_.ids()[i], cold ? energy[i] : density[i], cold ? "J/kg" : "kg/m^3", time_),
+       .why = fmt::format("it lost more than it had in one step; rho = {:.4g} kg/m^3, e = {:.4g} J/kg", density[i],
+                          energy[i]),
+       .fix = "take a smaller step (time.courant), or more artificial viscosity"});
+}
+
+template <int N>
+void Gas<N>::kick(double dt) {
+  Flow<N>::kick(dt);
+  auto energy = store_.template get<e>();
+  const auto rate = store_.template get<de>();
+  for_each_particle(store_, Group::fluid, [&](std::size_t i) { energy[i] += dt * rate[i]; });
+}
+
+/// Density by its rate, and H where it has a rate of its own: the mean density of the step makes that second order.
+template <int N>
+void Gas<N>::compress(double dt) {
+  if (!options_.takes_density_rate()) return;
+  auto density = store_.template get<rho>(), H = store_.template get<h>();
+  const auto rate = store_.template get<drho>();
+  const bool grows = options_.smoothing == SmoothingLaw::continuity, evolves = options_.density == DensityForm::evolved;
+  for_each_particle(store_, Group::fluid, [&](std::size_t i) {
+    const double change = dt * rate[i];
+    if (grows) H[i] *= std::exp(-change / (N * (density[i] + 0.5 * change)));
+    if (evolves) density[i] += change;
+  });
+}
+
+template <int N>
+void Gas<N>::continuity() {
+  if (!options_.takes_density_rate()) return;
+  this->refresh_lists();
+  this->run(rate_);
+}
+
+template <int N>
+std::vector<typename Flow<N>::Evolved> Gas<N>::evolved() const {
+  auto all = Flow<N>::evolved();
+  all.push_back({Group::fluid, e::id, {de::id}});
+  if (options_.density == DensityForm::evolved) all.push_back({Group::fluid, rho::id, {drho::id}});
+  return all;
+}
+
+template <int N>
+void Gas<N>::predict_kick(double dt) {
+  de_before_.take(store_, Group::fluid, de::id);
+  Flow<N>::predict_kick(dt);
+}
+
+template <int N>
+void Gas<N>::correct_kick(double dt) {
+  Flow<N>::correct_kick(dt);
+  auto energy = store_.template get<e>();
+  const auto rate = store_.template get<de>();
+  for_each_particle(store_, Group::fluid,
+                    [&](std::size_t i) { energy[i] += dt * (rate[i] - de_before_.of(store_.ids()[i])[0]); });
+}
+
+/// The end of a step: the viscosity switch moves on.
+template <int N>
+void Gas<N>::smooth() {
+  const double dt = time_ - this->step_end();
+  Flow<N>::smooth();
+  if (!options_.switches()) return;
+  auto chosen = options_.viscosity_switch;
+  chosen.with_chosen([&]<class Switch>(const Switch& rule) {
+    using Reads = typename Switch::reads;
+    auto alpha = store_.template get<alpha_v>();
+    const auto H = store_.template get<h>();
+    for_each_particle(store_, Group::fluid, [&](std::size_t i) {
+      typename Reads::template Row<N, double> a;
+      Reads::for_each([&]<class F>(F) { F::of(a) = store_.template get<F>()[i]; });
+      alpha[i] = rule.template next<N>(a, {dt, H[i] / options_.support.kappa, H[i]});
+    });
+  });
+}
+
+template <int N>
+void Gas<N>::save() {
+  Flow<N>::save();
+  e_start_.take(store_, Group::fluid, e::id);
+  h_start_.take(store_, Group::fluid, h::id);
+}
+
+template <int N>
+void Gas<N>::restore() {
+  Flow<N>::restore();
+  e_start_.give_back(store_, Group::fluid, e::id);
+  h_start_.give_back(store_, Group::fluid, h::id);
+}
+
+/// What each term took out of kinetic and internal energy together: nothing, where heat is what motion lost.
+template <int N>
+void Gas<N>::book(double dt) {
+  constexpr int fluid = 0, wall = 1;
+  const Power& pressure = force_.template use<Sweeps::pressure>().power;
+  const Power& work = force_.template use<Sweeps::energy>().power;
+  const Power& artificial = force_.template use<Sweeps::artificial>().power;
+  const Power& heat = force_.template use<Sweeps::conductivity>().power;
+  const Power& viscous = force_.template use<Sweeps::stress>().power;
+  ledger_.exchange -= dt * (pressure[fluid] + work[fluid]);
+  ledger_.artificial -= dt * artificial[fluid];
+  ledger_.diffusion -= dt * heat[fluid];
+  ledger_.viscous -= dt * viscous[fluid];
+  ledger_.walls -= dt * (pressure[wall] + work[wall] + artificial[wall] + heat[wall] + viscous[wall]);
+  if (options_.repulsion) ledger_.walls -= dt * push_.template use<0>().power[wall];
+  ledger_.body -= dt * body_power_;
+}
+
+template <int N>
+Step Gas<N>::stable_step(const StepLimits& limits) const {
+  if (limits.fixed > 0) return {limits.fixed, "fixed"};
+  const auto H = store_.template get<h>();
+  const auto signal = store_.template get<v_signal>();
+  const auto a = store_.template get<acc>();
+  const auto viscosity = store_.template get<mu>();
+  const auto density = store_.template get<rho>();
+  const double kappa = options_.support.kappa;
+  const bool viscous = options_.stress.has_value();
+  const auto fastest = largest_over(store_, Group::fluid, Vec<3>{}, [&](std::size_t i) {
+    const double rate = kappa / H[i];
+    return Vec<3>{{signal[i] * rate, norm_sq(a[i]) * sq(rate), viscous ? viscosity[i] / density[i] * sq(rate) : 0.0}};
+  });
+  Step step{limits.largest, "largest"};
+  const auto limit = [&](double dt, const char* name) {
+    if (dt < step.dt) step = {dt, name};
+  };
+  limit(limits.courant / fastest[0], "courant");
+  limit(limits.force / std::sqrt(std::sqrt(fastest[1])), "force");
+  if (viscous) limit(limits.viscous / fastest[2], "viscous");
+  return step;
+}
+
+template <int N>
+Energies Gas<N>::energies() const {
+  const auto at = store_.template get<x>();
+  const auto u = store_.template get<v>();
+  const auto mass = store_.template get<m>(), energy = store_.template get<e>();
+  const auto sum = [&](auto&& f) { return total_over(store_, Group::fluid, f); };
+  Energies all;
+  all.kinetic = sum([&](std::size_t i) { return 0.5 * mass[i] * norm_sq(u[i]); });
+  all.potential = -sum([&](std::size_t i) { return mass[i] * dot(options_.gravity, at[i] - potential_origin_); });
+  all.elastic = sum([&](std::size_t i) { return mass[i] * energy[i]; });
+  all.ledger = ledger_;
+  return all;
+}
+
+template <int N>
+void Gas<N>::evaluate_wall_forces() {
+  if (mirrored_) this->run(wall_force_);
+  if (!options_.repulsion) return;
+  this->run(pushed_back_);
+  auto a = store_.template get<acc>();
+  const auto push = store_.template get<acc_wall>();
+  for_each_particle(store_, Group::wall, [&](std::size_t i) { a[i] = push[i]; });
+}
+
+template <int N>
+std::vector<double*> Gas<N>::remembered() {
+  std::vector<double*> numbers{&body_power_};
+  std::ranges::copy(this->accounts(), std::back_inserter(numbers));
+  const auto each = [&](auto&... use) {
+    const auto one = [&](Power& power) {
+      for (double& number : power) numbers.push_back(&number);
+    };
+    (one(use.power), ...);
+  };
+  std::apply(each, force_.uses());
+  if (options_.repulsion) std::apply(each, push_.uses());
+  return numbers;
+}
+
+}  // namespace undine
