@@ -85,13 +85,17 @@ def main(program):
         check(done.returncode == 0 and again.returncode == 0 and all(near(a["p"], b["p"], 1e-12) for a, b in zip(one, two)),
               "--volume in cm^2 is m/rho")
 
-        done = run(program, folder, "--consistency", "--out", "study")
-        with open(os.path.join(folder, "study", "polynomials.csv"), encoding="utf-8") as file:
-            table = list(csv.DictReader(line for line in file if not line.startswith("#")))
-        check(done.returncode == 0 and {row["dimensions"] for row in table} == {"1", "2", "3"}, "the study")
-        check(all(float(row["value_1"]) < 1e-10 for row in table if row["method"] == "mls" and row["order"] != "0"),
-              "mls of order 1 and 2 is exact for linear fields everywhere")
-        check(os.path.isfile(os.path.join(folder, "study", "end_of_support.csv")), "the end of a row")
+        done = run(program, folder, "--consistency", "--set", "method=mls", "--set", "order=1", "--out", "study")
+        table = read(os.path.join(folder, "study", "gauges"), "polynomials.csv")
+        check(done.returncode == 0 and {row["dimensions"] for row in table} == {1, 2, 3} and len(table) == 36, "the measurement")
+        check(all(row["value"] < 1e-10 and row["promised_value"] == 1 for row in table if row["degree"] < 2),
+              "mls of order 1 is exact for linear fields everywhere")
+        check(all(row["value"] > 1e-5 and row["promised_value"] == 0 for row in table if row["degree"] == 2 and row["disordered"] == 1),
+              "and not beyond")
+        ends = read(os.path.join(folder, "study", "gauges"), "end_of_support.csv")
+        check(len(ends) == 11 and near(ends[0]["one"], 1), "the end of a row")
+        done = run(program, folder, "--consistency", "--set", "dimensions=1", "--set", "queries=2", "--threads", "1")
+        check(done.returncode == 0 and "finite_differences" in done.stdout and "sph" in done.stdout, "all methods, printed")
     print(f"{len(failures)} failed")
     return 1 if failures else 0
 

@@ -3,8 +3,6 @@
 #include <limits>
 #include <span>
 
-#include "undine/core/error.hpp"
-
 namespace undine {
 
 /// The distance between a computed field f and a reference g, over particles of volume V:
@@ -56,29 +54,6 @@ inline Norms error_norms(std::span<const double> volumes, std::span<const double
   NormSums sums;
   for (std::size_t i = 0; i < f.size(); ++i) sums.add(volumes[i], f[i] - g[i], g[i]);
   return sums.norms();
-}
-
-/// One run of a convergence study.
-struct Resolution {
-  double spacing, error;
-};
-
-/// p of error = C spacing^p, the least-squares line through (log spacing, log error). Throws InputError unless there
-/// are two different spacings and all numbers are positive.
-inline double observed_order(std::span<const Resolution> runs) {
-  double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
-  for (const auto& [spacing, error] : runs) {
-    if (!(spacing > 0 && error > 0))
-      throw InputError({.what = "an order of convergence needs positive spacings and errors"});
-    mean_x += std::log(spacing) / static_cast<double>(runs.size());
-    mean_y += std::log(error) / static_cast<double>(runs.size());
-  }
-  for (const auto& [spacing, error] : runs) {
-    xx += (std::log(spacing) - mean_x) * (std::log(spacing) - mean_x);
-    xy += (std::log(spacing) - mean_x) * (std::log(error) - mean_y);
-  }
-  if (!(xx > 0)) throw InputError({.what = "an order of convergence needs two different spacings"});
-  return xy / xx;
 }
 
 }  // namespace undine

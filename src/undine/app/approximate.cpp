@@ -7,6 +7,8 @@
 #include <omp.h>
 
 #include "undine/app/approximate_files.hpp"
+#include "undine/app/approximate_study.hpp"
+#include "undine/app/parameters.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/approximation/catalogue.hpp"
 #include "undine/core/error.hpp"
@@ -25,13 +27,10 @@ constexpr double most_queries = 1e8;
 
 /// A positive number of this dimension, with or without its unit.
 double amount(const std::string& option, const std::string& text, Dimension dimension) {
-  const Quantity quantity = parse_quantity(text);
-  if (quantity.dimension != dimension && quantity.dimension != unit::one)
-    throw InputError(
-        {.what = fmt::format("{} is '{}'", option, text), .why = fmt::format("it must be {}", described(dimension))});
-  if (!(quantity.value > 0))
+  const double value = read_number(option, text, dimension);
+  if (!(value > 0))
     throw InputError({.what = fmt::format("{} is '{}'", option, text), .why = "it must be greater than 0"});
-  return quantity.value;
+  return value;
 }
 
 /// The points of one group.
@@ -260,12 +259,17 @@ void add_approximate_options(CLI::App& command, ApproximateOptions& options) {
   command.add_option("--out", options.out, "file to write, .csv or .vtkhdf; with --consistency a folder");
   command.add_option("--threads", options.threads, "threads; 0: all cores")->check(CLI::Range(0, 1024));
   command.add_flag("--consistency", options.consistency,
-                   "no approximation: errors of all methods for polynomials and a smooth function");
+                   "no approximation: errors of the methods for polynomials and a smooth function");
+  command
+      .add_option("--set", options.sets, "of --consistency: --set method=rkpm, order, dimensions, kernel, support, ...")
+      ->allow_extra_args(false);
 }
 
 int run_approximate(const ApproximateOptions& options) {
   if (options.threads > 0) omp_set_num_threads(options.threads);
-  if (options.consistency) return run_consistency_study(options);
+  if (options.consistency) return run_consistency(options);
+  if (!options.sets.empty())
+    throw InputError({.what = "--set is of no use without --consistency", .fix = "add --consistency, or leave it out"});
   if (options.points.empty())
     throw InputError({.what = "the file of points is missing", .fix = "see `undine approximate --help`"});
   if (options.out.empty())

@@ -23,16 +23,13 @@ struct ApproximateOptions {
   double condition_limit = 1e10;
   std::filesystem::path out;
   int threads = 0;
-  bool consistency = false;  ///< the study of all methods in place of an approximation
+  bool consistency = false;            ///< what methods make of polynomials, in place of an approximation
+  std::vector<std::string> sets = {};  ///< "key=value" for it
 };
 
 void add_approximate_options(CLI::App& command, ApproximateOptions& options);
 
 /// `undine approximate`: fields and their derivatives at query points, from points in a file.
 int run_approximate(const ApproximateOptions& options);
-
-/// `undine approximate --consistency`: prints, and with `out` writes into that folder as CSV, what every method makes
-/// of polynomials and of a smooth function. docs/approximation.md says what the columns mean.
-int run_consistency_study(const ApproximateOptions& options);
 
 }  // namespace undine

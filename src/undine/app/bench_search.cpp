@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <omp.h>
 
+#include "undine/analysis/growth.hpp"
 #include "undine/app/bench_hardware.hpp"
 #include "undine/app/bench_search_sets.hpp"
-#include "undine/app/growth.hpp"
 #include "undine/core/stopwatch.hpp"
 #include "undine/io/run_record.hpp"
 #include "undine/search/search.hpp"

@@ -13,25 +13,13 @@
 #include "undine/app/case_shapes.hpp"
 #include "undine/app/case_walls.hpp"
 #include "undine/core/error.hpp"
+#include "undine/geometry/embed.hpp"
 #include "undine/geometry/fill.hpp"
 #include "undine/geometry/points.hpp"
 #include "undine/search/cell_grid.hpp"
 
 namespace undine {
 namespace {
-
-template <int N>
-Vec<N> narrow(const Vec3& p) {
-  Vec<N> q;
-  for (int k = 0; k < N; ++k) q[k] = p[k];
-  return q;
-}
-template <int N>
-Vec3 widen(const Vec<N>& p) {
-  Vec3 q{};
-  for (int k = 0; k < N; ++k) q[k] = p[k];
-  return q;
-}
 
 /// Particles of one body before they enter the store.
 struct Body {

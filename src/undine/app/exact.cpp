@@ -18,15 +18,6 @@ using exact::Point;
 
 constexpr int usual_points = 101, most_points = 10'000'000;
 
-/// A number in SI units, or with a unit of that dimension.
-double read_number(std::string_view option, const std::string& text_value, Dimension wanted) {
-  const Quantity given = parse_quantity(text_value);
-  if (given.dimension != wanted && given.dimension != unit::one)
-    throw InputError({.what = fmt::format("{} takes {}, not {}", option, described(wanted), text(given)),
-                      .fix = "give a number in SI units, or one with a unit of that kind"});
-  return given.value;
-}
-
 template <class Solution>
 constexpr int coordinate_count = static_cast<int>(Solution::coordinates.size());
 

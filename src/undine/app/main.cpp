@@ -13,6 +13,7 @@
 #include "undine/app/report/report.hpp"
 #include "undine/app/run_options.hpp"
 #include "undine/app/study/study.hpp"
+#include "undine/app/study/verify.hpp"
 #include "undine/app/view/view.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
@@ -44,12 +45,26 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
   command.add_flag("--json", options.json, "progress as one JSON object per line");
 }
 
+void add_verify_options(CLI::App& command, VerifyOptions& options) {
+  command.add_option("names", options.names, "verifications, or patterns of them (* and ?); all that are not long");
+  command.add_option("--files", options.files, "folder of studies; those that come with the program unless given");
+  command.add_option("--out", options.out, "folder of the runs; out/verify unless given");
+  command.add_option("--jobs", options.jobs, "members at a time; 0: as many as there are cores")
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--quick", options.quick, "the part that takes less than a minute");
+  command.add_flag("--list", options.list, "list the verifications with members and estimated time; run nothing");
+  command.add_flag("--json", options.json, "print an array of objects with case, metric, value, limit, pass");
+  command.add_flag("--again", options.again, "also run members that this program has finished");
+}
+
 int execute(int argc, char** argv) {
   CLI::App app{"Undine: smoothed particle hydrodynamics, every ingredient chosen in a case file"};
   app.set_version_flag("--version", std::string(program_version()));
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 4 output could not be written, 130 "
+      "Exit codes: 0 done, 1 internal error, 2 bad input, 3 the run went bad, 4 output could not be written, 5 "
+      "verified and "
+      "a limit was missed, 130 "
       "interrupted (checkpoint written).");
 
   RunOptions run_options;
@@ -71,6 +86,10 @@ int execute(int argc, char** argv) {
   StudyOptions study_options;
   auto* study = app.add_subcommand("study", "run a family of cases and judge it in one table");
   add_study_options(*study, study_options);
+
+  VerifyOptions verify_options;
+  auto* verify = app.add_subcommand("verify", "run what has an exact or published answer, and score it in one table");
+  add_verify_options(*verify, verify_options);
 
   std::string axis, name;
   bool list_json_flag = false, markdown = false;
@@ -142,6 +161,7 @@ int execute(int argc, char** argv) {
   if (run->parsed()) return run_case(run_options);
   if (check->parsed()) return check_case(check_options);
   if (study->parsed()) return run_study(study_options);
+  if (verify->parsed()) return run_verify(verify_options);
   if (list->parsed()) {
     if (axis.empty()) {
       fmt::print("{}", markdown ? docs_tables() : list_axes());

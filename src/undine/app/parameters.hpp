@@ -19,6 +19,16 @@ inline Dimension dimension_of(std::string_view parameter_unit) {
                                                          : parse_quantity("1 " + std::string(parameter_unit)).dimension;
 }
 
+/// A number of a command line: in SI units, or with a unit of that dimension. Throws InputError.
+inline double read_number(std::string_view name, const std::string& words, Dimension wanted) {
+  const Quantity given = parse_quantity(words);
+  if (given.dimension != wanted && given.dimension != unit::one)
+    throw InputError({.what = fmt::format("{} is '{}'", name, shortened(words, 40)),
+                      .why = fmt::format("it must be {}", described(wanted)),
+                      .fix = "give a number in SI units, or one with a unit of that kind"});
+  return given.value;
+}
+
 /// Reads the parameters of a term, an equation of state or an exact solution; the members' values are the defaults.
 template <class T>
 void read_parameters(const Table& table, T& owner) {
@@ -37,17 +47,12 @@ void set_parameter(T& owner, std::string_view name, const std::string& value) {
     names.emplace_back(parameter.name);
     if (parameter.name != name) return;
     found = true;
-    const Quantity given = parse_quantity(value);
-    const Dimension wanted = dimension_of(parameter.unit);
-    if (given.dimension != wanted && given.dimension != unit::one)
-      throw InputError({.what = fmt::format("'{}' is {}, not {}", name, described(wanted), text(given)),
-                        .fix = "give a number in SI units, or one with a unit of that kind"});
-    if (!(given.value >= parameter.low && given.value <= parameter.high))
-      throw InputError(
-          {.what = fmt::format("'{}' is out of range", name),
-           .why = fmt::format("it is {}, and must be from {} to {}", given.value, parameter.low, parameter.high),
-           .fix = "choose a value in that range"});
-    owner.*parameter.member = given.value;
+    const double given = read_number(name, value, dimension_of(parameter.unit));
+    if (!(given >= parameter.low && given <= parameter.high))
+      throw InputError({.what = fmt::format("'{}' is out of range", name),
+                        .why = fmt::format("it is {}, and must be from {} to {}", given, parameter.low, parameter.high),
+                        .fix = "choose a value in that range"});
+    owner.*parameter.member = given;
   });
   if (found) return;
   const std::string guess = did_you_mean(name, names);

@@ -148,7 +148,7 @@ class Run {
 
   bool look_is_due() const {
     const std::int64_t since = pace_.step - looked_at_;
-    return due(output_.snapshots, before_, flow_->time()) || since >= 256 ||
+    return !snapshot_due(output_, before_, flow_->time()).empty() || since >= 256 ||
            (since >= 128 && due(output_.energies, before_, flow_->time()));
   }
   void look() {
@@ -165,11 +165,10 @@ class Run {
       steps_->add(now, pace_.step, step_, store.range(Group::fluid).size(), store.range(Group::wall).size());
     }
     gauges_.sample(*flow_);
-    if (!due(output_.snapshots, before_, now)) return;
+    const std::string name = snapshot_due(output_, before_, now);
+    if (name.empty()) return;
     const auto watch = Pace::Clock::now();
     std::vector<std::int32_t> groups;
-    const std::string name =
-        fmt::format("particles_{:06}.vtkhdf", std::llround(std::floor(now / output_.snapshots + 1e-9)));
     write_snapshot(output_.folder / name, frame_of(*flow_, pace_.step, output_.fields, groups));
     series_->add(name, now);
     pace_.seconds_output += Pace::seconds_since(watch);

@@ -27,6 +27,7 @@ enum ExitCode : int {
   exit_input = 2,
   exit_run = 3,
   exit_output = 4,
+  exit_missed = 5,  ///< verified, and a limit was missed
   exit_interrupted = 130
 };
 

@@ -64,6 +64,9 @@ OutputPlan read_output(const Table& root, const RunOptions& options, double end)
   const std::string folder = table.text("folder", (std::filesystem::path("out") / options.file.stem()).string());
   plan.folder = options.out.empty() ? std::filesystem::path(folder) : options.out;
   plan.snapshots = table.non_negative("snapshots", unit::time, end / 20);
+  plan.at = table.quantities("at", unit::time, -1, {});
+  for (const double t : plan.at)
+    if (!(t >= 0)) table.fail("at", fmt::format("{} s is before the start", t), {}, "runs begin at 0");
   plan.energies = table.non_negative("energies", unit::time, end / 200);
   plan.checkpoints = table.non_negative("checkpoints", unit::time, end / 5);
   plan.checkpoint_wall_time = table.non_negative("checkpoint_wall_time", unit::time, 600);
@@ -79,6 +82,16 @@ bool due(double interval, double before, double now) {
   if (interval <= 0) return false;
   const auto index = [&](double t) { return std::floor(t / interval + 1e-9); };
   return before < 0 || index(now) > index(before);
+}
+
+std::string snapshot_due(const OutputPlan& plan, double before, double now) {
+  if (due(plan.snapshots, before, now))
+    return fmt::format("particles_{:06}.vtkhdf", std::llround(std::floor(now / plan.snapshots + 1e-9)));
+  std::string name;
+  const auto reached = [](double t, double wanted) { return t >= wanted * (1 - 1e-12); };
+  for (const double t : plan.at)
+    if (reached(now, t) && (before < 0 || !reached(before, t))) name = fmt::format("particles_at_{:g}s.vtkhdf", t);
+  return name;
 }
 
 template <int N>

@@ -20,6 +20,7 @@ namespace undine {
 struct OutputPlan {
   std::filesystem::path folder;
   double snapshots = 0, energies = 0, checkpoints = 0;
+  std::vector<double> at;           ///< further times of snapshots
   double checkpoint_wall_time = 0;  ///< on the clock, not in the simulation
   std::vector<int> fields;          ///< of snapshots, as in fields.def
   bool report = true;               ///< whether a page that shows the run is written at its end
@@ -30,6 +31,9 @@ OutputPlan read_output(const Table& root, const RunOptions& options, double end)
 
 /// Whether a multiple of `interval` lies in (before, now]; also at the very start.
 bool due(double interval, double before, double now);
+
+/// The file of the snapshot that is due for the times in (before, now]; empty if none is.
+std::string snapshot_due(const OutputPlan& plan, double before, double now);
 
 /// The particles as a frame; `group` must live as long as the frame. All fields in use when `fields` is empty.
 template <int N>

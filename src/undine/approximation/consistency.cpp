@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -243,21 +244,28 @@ struct Study {
 }  // namespace
 
 template <int N>
-std::vector<StudyRow> consistency_study(const StudyOptions& options) {
+std::vector<StudyRow> consistency_study(const StudyOptions& options, const std::string& method, int order) {
   constexpr int n = N == 1 ? 32 : N == 2 ? 20 : 12;  // spacings along the side
+  static_assert(study_points<N> == (N == 1 ? n : N == 2 ? n * n : n * n * n));
   std::vector<StudyRow> rows;
   for (const Arrangement arrangement : {Arrangement::regular, Arrangement::disordered}) {
     const Study<N> study(n, arrangement, options);
-    Methods::for_each([&]<class M>(M) {
-      for (int order = M::lowest_order; order <= M::highest_order; ++order)
-        for (const Place place : {Place::inside, Place::boundary})
-          rows.push_back(study.row(std::string(M::info.name), order, place));
-    });
+    for (const Place place : {Place::inside, Place::boundary}) rows.push_back(study.row(method, order, place));
   }
   return rows;
 }
 
-std::vector<EndRow> end_of_support(const StudyOptions& options) {
+template <int N>
+std::vector<StudyRow> consistency_study(const StudyOptions& options) {
+  std::vector<StudyRow> rows;
+  Methods::for_each([&]<class M>(M) {
+    for (int order = M::lowest_order; order <= M::highest_order; ++order)
+      std::ranges::copy(consistency_study<N>(options, std::string(M::info.name), order), std::back_inserter(rows));
+  });
+  return rows;
+}
+
+std::vector<EndRow> end_of_support(const StudyOptions& options, const std::string& method, int order) {
   constexpr int n = 64;
   Random random(options.seed);
   const Points<1> points = lattice<1>(n, 0, random);
@@ -269,25 +277,24 @@ std::vector<EndRow> end_of_support(const StudyOptions& options) {
   for (int k = 0; k <= 10; ++k) queries.push_back({{0.1 * k * H}});
 
   std::vector<EndRow> rows;
-  for (const auto& [method, order] : {std::pair("sph", 0), std::pair("shepard", 0), std::pair("rkpm", 1)}) {
-    const Approximation<1> by(points, {.method = method, .order = order, .kernel = options.kernel, .support = H});
-    const auto all = by.evaluate(queries, {one, x});
-    for (std::size_t q = 0; q < queries.size(); ++q) {
-      const auto &of_one = all.fields[0][q], &of_x = all.fields[1][q];
-      rows.push_back({.method = method,
-                      .order = order,
-                      .distance = 0.1 * static_cast<double>(q),
-                      .one = of_one.value,
-                      .gradient_of_one = of_one.gradient[0] * H,
-                      .x_error = (of_x.value - queries[q][0]) / H,
-                      .gradient_of_x = of_x.gradient[0]});
-    }
+  const Approximation<1> by(points, {.method = method, .order = order, .kernel = options.kernel, .support = H});
+  const auto all = by.evaluate(queries, {one, x});
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    const auto &of_one = all.fields[0][q], &of_x = all.fields[1][q];
+    rows.push_back({.distance = 0.1 * static_cast<double>(q),
+                    .one = of_one.value,
+                    .gradient_of_one = of_one.gradient[0] * H,
+                    .x_error = (of_x.value - queries[q][0]) / H,
+                    .gradient_of_x = of_x.gradient[0]});
   }
   return rows;
 }
 
 template std::vector<StudyRow> consistency_study<1>(const StudyOptions&);
+template std::vector<StudyRow> consistency_study<1>(const StudyOptions&, const std::string&, int);
 template std::vector<StudyRow> consistency_study<2>(const StudyOptions&);
+template std::vector<StudyRow> consistency_study<2>(const StudyOptions&, const std::string&, int);
 template std::vector<StudyRow> consistency_study<3>(const StudyOptions&);
+template std::vector<StudyRow> consistency_study<3>(const StudyOptions&, const std::string&, int);
 
 }  // namespace undine::approximation

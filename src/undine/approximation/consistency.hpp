@@ -40,19 +40,26 @@ struct StudyRow {
   int refused;          ///< queries whose status is not ok
 };
 
-/// All methods with all their orders in N dimensions, both arrangements, both places.
+/// One method in N dimensions: both arrangements, both places. Throws InputError if it has no such order.
+template <int N>
+std::vector<StudyRow> consistency_study(const StudyOptions& options, const std::string& method, int order);
+/// All methods with all their orders.
 template <int N>
 std::vector<StudyRow> consistency_study(const StudyOptions& options);
+
+/// Points of the coarse set of a study in N dimensions.
+template <int N>
+inline constexpr int study_points = N == 1   ? 32
+                                    : N == 2 ? 400
+                                             : 1728;
 
 /// What a 1-D estimate makes of u = 1 and u = x near the end x = 0 of a regular row of points: Niedoba (2012),
 /// figure 2.8, in numbers.
 struct EndRow {
-  std::string method;
-  int order;
   double distance;                ///< from the end, in support radii
   double one, gradient_of_one;    ///< estimates of 1, and of its derivative, in 1/H
   double x_error, gradient_of_x;  ///< (<x> - x)/H, and the estimate of dx/dx = 1
 };
-std::vector<EndRow> end_of_support(const StudyOptions& options);
+std::vector<EndRow> end_of_support(const StudyOptions& options, const std::string& method, int order);
 
 }  // namespace undine::approximation

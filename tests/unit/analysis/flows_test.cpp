@@ -44,6 +44,31 @@ TEST(TaylorGreen, SolvesTheNavierStokesEquations) {
   }
 }
 
+// Euler's equations with the force -B^2 r inside, no pressure on the ellipse, an ellipse that moves with the liquid, and energy kept.
+TEST(DropInForce, SolvesEulersEquations) {
+  const DropInForce s{.R = 0.8, .B = 1.3, .A_0 = 0.9, .rho = 900};
+  const double d = 1e-3, energy = 2 * (sq(s.A_0) + sq(s.B));
+  const auto part = [&](std::size_t field, double x, double y, double at) { return s.at(at)({{x, y}})[field]; };
+  for (const double t : {0.02, 0.7, 1.6, 4.0}) {
+    const auto [A, stretch] = s.state(t);
+    const double a = s.R * stretch, b = s.R / stretch;
+    EXPECT_NEAR((sq(A) + sq(s.B)) * (sq(stretch) + 1 / sq(stretch)), energy, 1e-8 * energy);
+    EXPECT_NEAR(slope([&](double at) { return s.state(at).s; }, t, d), A * stretch, 1e-7);
+    EXPECT_NEAR(part(2, a * std::cos(0.6), b * std::sin(0.6), t), 0, 1e-8);
+    const double x = 0.4 * a, y = -0.5 * b;
+    const auto in_x = [&](std::size_t f) { return slope([&](double at) { return part(f, at, y, t); }, x, d); };
+    const auto in_y = [&](std::size_t f) { return slope([&](double at) { return part(f, x, at, t); }, y, d); };
+    const double u = part(0, x, y, t), v = part(1, x, y, t);
+    EXPECT_NEAR(in_x(0) + in_y(1), 0, 1e-9);
+    for (const std::size_t k : {0U, 1U}) {
+      const double in_t = slope([&](double at) { return part(k, x, y, at); }, t, d);
+      const double pressure = k == 0 ? in_x(2) : in_y(2), place = k == 0 ? x : y;
+      EXPECT_NEAR(in_t + u * in_x(k) + v * in_y(k) + pressure / s.rho + sq(s.B) * place, 0, 1e-6);
+    }
+  }
+  EXPECT_NEAR(DropInForce{}.at(0)({{0, 0}})[2], 1000, 1e-9);  // A_0 = B = R = 1: p = 1000 (1 - r^2)
+}
+
 /// Compares a start-up flow with its table: t_s, y_m, u_m_per_s.
 template <class Solution>
 void compare_with_table(const char* file) {
@@ -146,9 +171,9 @@ TEST(Hydrostatic, BalancesAndFollowsTheEquationOfState) {
     EXPECT_EQ(s.at(0)({{s.surface + 0.1}})[0], 0);
   };
   balance(HydrostaticIncompressible{});
-  const HydrostaticLinear linear{.rho_0 = 900, .g = 3, .surface = 1.2, .c_0 = 12};
+  const HydrostaticLinear linear{{.rho_0 = 900, .g = 3, .surface = 1.2}, 12};
   balance(linear);
-  const HydrostaticTait tait{.rho_0 = 900, .g = 3, .surface = 1.2, .c_0 = 12, .gamma = 5};
+  const HydrostaticTait tait{{.rho_0 = 900, .g = 3, .surface = 1.2}, 12, 5};
   balance(tait);
   balance(HydrostaticTait{.gamma = 1});
   const auto [rho1, v1, p1] = linear.at(0)({{0.0}});

@@ -91,34 +91,5 @@ TEST(Norms, DoNotHideWhatIsNoNumber) {
   EXPECT_TRUE(std::isinf(error_norms(std::vector{1.0}, std::vector{1.0}, std::vector{0.0}).relative));
 }
 
-RC_GTEST_PROP(ObservedOrder, IsTheExponentOfAPowerLaw, ()) {
-  const double p = *rc::gen::inRange(-30, 41) / 10.0, C = *rc::gen::inRange(1, 1000) / 10.0;
-  std::vector<Resolution> runs;
-  for (int k = 0; k < *rc::gen::inRange(2, 8); ++k) {
-    const double spacing = std::pow(0.7, k);
-    runs.push_back({spacing, C * std::pow(spacing, p)});
-  }
-  RC_ASSERT(std::abs(observed_order(runs) - p) < 1e-9);
-}
-
-// Errors C h^2 (1 +- 10 %), alternately: between the orders of neighbours, by the least-squares line.
-TEST(ObservedOrder, FitsAllResolutions) {
-  const std::vector<Resolution> runs{{1, 1.1}, {0.5, 0.225}, {0.25, 0.06875}, {0.125, 0.0140625}};
-  double xy = 0, xx = 0;
-  const double x[] = {1.5, 0.5, -0.5, -1.5};
-  for (int k = 0; k < 4; ++k) {
-    xy += x[k] * std::log2(runs[static_cast<std::size_t>(k)].error);
-    xx += x[k] * x[k];
-  }
-  EXPECT_NEAR(observed_order(runs), xy / xx, 1e-12);
-}
-
-TEST(ObservedOrder, RefusesWhatHasNone) {
-  EXPECT_THROW(observed_order(std::vector<Resolution>{}), InputError);
-  EXPECT_THROW(observed_order(std::vector<Resolution>{{1, 1}}), InputError);
-  EXPECT_THROW(observed_order(std::vector<Resolution>{{1, 1}, {1, 2}}), InputError);
-  EXPECT_THROW((observed_order(std::vector<Resolution>{{1, 1}, {0.5, 0}})), InputError);
-}
-
 }  // namespace
 }  // namespace undine

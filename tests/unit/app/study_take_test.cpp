@@ -96,11 +96,6 @@ TEST(Take, DeviationFromAReference) {
   EXPECT_TRUE(std::isnan(deviation(beyond, x, y)));
 }
 
-TEST(Slope, OfALineAndOfOnePoint) {
-  EXPECT_NEAR(slope({0, 1, 2}, {5, 3, 1}), -2, 1e-15);
-  EXPECT_TRUE(std::isnan(slope({1}, {1})));
-}
-
 TEST(Verdict, FirstRuleThatHolds) {
   const Document file = document(
       "name = \"v\"\nrules = [{ when = 'a > 1', says = 'high' }, { when = 'b > 1', says = 'b' }, { says = 'low' }]");

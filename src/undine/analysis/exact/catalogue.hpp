@@ -4,6 +4,7 @@
 #include "undine/analysis/exact/cavity.hpp"
 #include "undine/analysis/exact/channel.hpp"
 #include "undine/analysis/exact/drop.hpp"
+#include "undine/analysis/exact/drop_in_force.hpp"
 #include "undine/analysis/exact/hydrostatic.hpp"
 #include "undine/analysis/exact/noh.hpp"
 #include "undine/analysis/exact/riemann.hpp"
@@ -28,6 +29,7 @@ using ExactSolutions = Catalogue<  //
     SoundWave,                     //
     DropOscillation,               //
     DropPressure,                  //
+    DropInForce,                   //
     Cavity>;
 
 template <class List>

@@ -9,6 +9,7 @@
 #include "undine/app/case_shapes.hpp"
 #include "undine/app/parameters.hpp"
 #include "undine/engine/update.hpp"
+#include "undine/geometry/embed.hpp"
 
 namespace undine {
 namespace {
@@ -197,13 +198,7 @@ std::vector<double> ErrorGauge<N>::read(const Flow<N>& flow) const {
   const auto rho = store.template get<field::rho>();
   const auto p = store.template get<field::p>();
   const auto e = store.template get<field::e>();
-  const auto counts = [&](std::size_t i) {
-    if (!region_) return true;
-    const Vec<N> place = flow.domain().wrapped(x[i]);
-    Vec3 in_3d{};
-    for (int k = 0; k < N; ++k) in_3d[k] = place[k];
-    return region_->inside(in_3d);
-  };
+  const auto counts = [&](std::size_t i) { return !region_ || region_->inside(widen(flow.domain().wrapped(x[i]))); };
   return std::visit(
       [&]<class S>(const S& solution) -> std::vector<double> {
         if constexpr (S::frame == Frame::time) return {};

@@ -10,6 +10,7 @@
 
 #include "undine/core/catalogue.hpp"
 #include "undine/engine/interpolate.hpp"
+#include "undine/geometry/embed.hpp"
 #include "undine/geometry/surface.hpp"
 #include "undine/io/case/table.hpp"
 #include "undine/io/time_series.hpp"
@@ -83,13 +84,6 @@ int steepest_axis(const Vec<N>& gravity) {
   for (int k = 0; k < N; ++k)
     if (std::abs(gravity[k]) > std::abs(gravity[steepest])) steepest = k;
   return steepest;
-}
-
-template <int N>
-Vec3 in_3d(const Vec<N>& a) {
-  Vec3 b{};
-  for (int k = 0; k < N; ++k) b[k] = a[k];
-  return b;
 }
 
 template <int N>

@@ -29,7 +29,7 @@ class Leak : public Gauge<N> {
     const auto x = flow.store().template get<field::x>();
     double leaked = 0, deepest = 0;
     for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
-      const double behind = -walls_->depth(in_3d(x[i]));
+      const double behind = -walls_->depth(widen(x[i]));
       if (behind > limit_) ++leaked;
       deepest = std::max(deepest, behind);
     }

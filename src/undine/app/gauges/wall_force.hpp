@@ -51,7 +51,7 @@ class WallForce : public Gauge<N> {
     const Total total = total_over(flow.store(), Group::wall, [&](std::size_t i) {
       if (!counts(ids[i])) return Total{};
       const Vec<N> force = m[i] * acc[i];
-      return Total{force, cross(in_3d(x[i] - about_), in_3d(force)), 1};
+      return Total{force, cross(widen(x[i] - about_), widen(force)), 1};
     });
     const auto& options = flow.options();
     if ((total.particles == 0 && !mirrors) || (options.wall_density == walls::WallDensity::none && !options.repulsion))

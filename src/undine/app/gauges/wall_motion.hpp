@@ -29,7 +29,7 @@ class WallJitter : public Gauge<N> {
     const auto m = flow.store().template get<field::m>();
     double mass = 0, sum = 0, count = 0;
     for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
-      if (!(std::abs(walls_->depth(in_3d(x[i]))) < within_)) continue;
+      if (!(std::abs(walls_->depth(widen(x[i]))) < within_)) continue;
       mass += m[i];
       sum += m[i] * norm_sq(v[i]);
       ++count;

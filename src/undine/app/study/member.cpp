@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "undine/app/approximate_study.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/io/checksum.hpp"
@@ -89,6 +90,7 @@ std::vector<Member> make_members(const StudyFile& study, const fs::path& out, co
                   .folder = {},
                   .parent = {},
                   .into = {},
+                  .measures_consistency = study.measures_consistency,
                   .outline = {},
                   .key = {},
                   .error = {}};
@@ -99,7 +101,7 @@ std::vector<Member> make_members(const StudyFile& study, const fs::path& out, co
       if (!value.base.empty()) member.base = value.base;
       member.set.insert(member.set.end(), value.set.begin(), value.set.end());
     }
-    if (member.base.empty())
+    if (member.base.empty() && !study.measures_consistency)
       throw InputError({.what = fmt::format("'{}' has no case to run", member.name),
                         .where = {study.file.string()},
                         .fix = "add case = \"case.toml\" at the top of the file, or to a value of an axis"});
@@ -141,7 +143,8 @@ bool resolvable(const Member& member, const std::vector<Member>& all) {
 
 void resolve(Member& member, const std::vector<Member>& all) {
   try {
-    member.outline = outline_case(run_options(member, all));
+    const RunOptions options = run_options(member, all);
+    member.outline = member.measures_consistency ? outline_consistency(options.sets) : outline_case(options);
   } catch (const InputError& error) {
     if (blames_override(error)) rethrow_in_study(error, member);
     member.status = Status::failed;
@@ -149,8 +152,8 @@ void resolve(Member& member, const std::vector<Member>& all) {
     return;
   }
   Hash64 hash;
-  const std::string identity = fmt::format("{} {} {}", program_version(), member.outline->hash,
-                                           member.parent ? all[*member.parent].key : std::string());
+  const std::string identity = fmt::format("{} {} {}{}", program_version(), member.outline->hash,
+                                           member.parent ? all[*member.parent].key : std::string(), member.maker);
   hash.add_values(std::span<const char>(identity));
   member.key = hash.text();
   if (!fs::exists(member.folder / record_file)) return;
@@ -177,10 +180,12 @@ void read_facts(Member& member) {
   if (member.status == Status::went_bad) facts.blow_up_time = facts.time;
 }
 
-std::vector<std::string> run_words(const Member& member, const std::vector<Member>& all) {
+std::vector<std::string> run_words(const Member& member, const std::vector<Member>& all, bool resume) {
   const RunOptions options = run_options(member, all);
-  std::vector<std::string> words{"run",     options.file.string(), "--out", options.out.string(), "--threads", "1",
-                                 "--quiet", "--no-report"};
+  std::vector<std::string> words{"run", options.file.string(), "--quiet", "--no-report"};
+  words.emplace_back(resume ? "--resume" : "--overwrite");
+  if (member.measures_consistency) words = {"approximate", "--consistency"};
+  words.insert(words.end(), {"--out", options.out.string(), "--threads", "1"});
   for (const std::string& each : options.sets) words.insert(words.end(), {"--set", each});
   return words;
 }

@@ -28,6 +28,8 @@ struct Member {
   std::filesystem::path folder = {};
   std::optional<std::size_t> parent = {};  ///< member whose last particles it starts from
   std::string into = {};                   ///< key that takes their file
+  bool measures_consistency = false;       ///< no run of a case, but `undine approximate --consistency`
+  std::string maker = {};                  ///< joins the key
   bool chosen = true;
 
   std::optional<CaseOutline> outline = {};
@@ -36,9 +38,9 @@ struct Member {
   std::string error = {};
   RunFacts facts = {};
 
-  /// Whether running it again would give the same.
   /// Whether there is something to measure; an interrupted run has not said its last.
   bool measured() const { return outline && status != Status::waiting && status != Status::running; }
+  /// Whether running it again would give the same.
   bool done() const { return status == Status::finished || status == Status::went_bad; }
 };
 
@@ -56,8 +58,8 @@ bool resolvable(const Member& member, const std::vector<Member>& all);
 /// Reads run.json of the member's folder into `facts`.
 void read_facts(Member& member);
 
-/// Words of the command line after "undine run": the case, its overrides, the folder.
-std::vector<std::string> run_words(const Member& member, const std::vector<Member>& all);
+/// Words of the command line after "undine": the command, the case, its overrides, the folder.
+std::vector<std::string> run_words(const Member& member, const std::vector<Member>& all, bool resume);
 
 /// Keeps the outcome in the folder, for a later study to find.
 void remember(const Member& member);

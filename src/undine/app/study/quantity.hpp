@@ -69,7 +69,4 @@ double take_from(const Quantity& quantity, const std::vector<double>& times, con
 /// reference.shift) that makes it smallest.
 double deviation(const ReferenceSeries& reference, const std::vector<double>& x, const std::vector<double>& y);
 
-/// Slope of the straight line through (x, y) by least squares; NaN for fewer than two different x.
-double slope(const std::vector<double>& x, const std::vector<double>& y);
-
 }  // namespace undine::study

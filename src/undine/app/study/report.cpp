@@ -95,7 +95,7 @@ class Writer {
     for (const Verdict& verdict : study_.verdicts) head.push_back(verdict.name);
     text += md_row(head) + md_row(std::vector<std::string>(head.size(), "---"));
     for (std::size_t k = 0; k < members_.size(); ++k) text += md_row(cells(k));
-    return text + meanings() + orders() + notes();
+    return text + meanings() + orders() + limits() + notes();
   }
 
   Json json() const {
@@ -114,9 +114,12 @@ class Writer {
     for (const Order& order : table_.orders)
       orders.push_back(
           {{"quantity", order.quantity}, {"axis", order.axis}, {"group", order.group}, {"order", number(order.order)}});
+    Json limits = Json::array();
+    for (const Score& score : judge_limits(study_, members_, table_)) limits.push_back(score_json(score));
     return Json{
         {"title", study_.title},    {"file", study_.file.string()}, {"command", study_.command}, {"axes", axes},
-        {"quantities", quantities}, {"verdicts", verdicts},         {"members", members},        {"orders", orders}};
+        {"quantities", quantities}, {"verdicts", verdicts},         {"members", members},        {"orders", orders},
+        {"limits", limits}};
   }
 
  private:
@@ -156,6 +159,20 @@ class Writer {
       for (const auto& [axis, value] : order.group) group += (group.empty() ? "" : ", ") + axis + " = " + value;
       text += md_row({order.quantity, order.axis, group, md_number(order.order)});
     }
+    return text;
+  }
+
+  std::string limits() const {
+    const auto scores = judge_limits(study_, members_, table_);
+    if (scores.empty()) return {};
+    std::string text =
+        "\n" + md_row({"metric", "value", "limit", "kept", "source"}) + md_row({"---", "---", "---", "---", "---"});
+    for (const Score& score : scores)
+      text += md_row({score.metric, md_number(score.value), score.limit_text(),
+                      !score.limited() ? ""
+                      : score.pass()   ? "yes"
+                                       : "NO",
+                      score.source});
     return text;
   }
 
@@ -207,6 +224,16 @@ class Writer {
 };
 
 }  // namespace
+
+Json score_json(const Score& score) {
+  return Json{{"metric", score.metric},
+              {"value", number(score.value)},
+              {"limit", number(score.limit)},
+              {"bound", score.limited() ? (score.is_upper ? "at most" : "at least") : ""},
+              {"pass", score.limited() ? Json(score.pass()) : Json(nullptr)},
+              {"unit", score.unit},
+              {"source", score.source}};
+}
 
 void write_report(const StudyFile& study, const std::vector<Member>& members, const std::filesystem::path& folder) {
   const Writer writer(study, members);

@@ -157,9 +157,8 @@ class Runner {
     prepare_output_folder(member.folder, resume ? FolderMode::resume : FolderMode::overwrite);
     if (!resume)  // what an earlier run left would pass for this one's if it died at once
       for (const char* old : {"run.json", "energies.csv", "gauges"}) fs::remove_all(member.folder / old);
-    auto words = run_words(member, members_);
+    auto words = run_words(member, members_, resume);
     words.insert(words.begin(), "undine");
-    words.emplace_back(resume ? "--resume" : "--overwrite");
     std::vector<char*> pointers;
     for (std::string& each : words) pointers.push_back(each.data());
     pointers.push_back(nullptr);

@@ -16,6 +16,7 @@ struct StudyOptions {
   bool dry_run = false;           ///< say what would run
   bool again = false;             ///< also run members that are finished
   bool json = false;              ///< progress as one JSON object per line
+  std::string maker = {};         ///< what results depend on besides the case, such as the build; others are run again
 };
 
 /// Runs the members of a study file that are not finished, each as a run of this program, and writes their table.

@@ -53,9 +53,11 @@ void claim(const Table& table, const std::string& name, std::set<std::string>& n
   if (!is_identifier(name))
     table.fail("name", fmt::format("'{}' cannot be a name in formulas", shortened(name, 40)), {},
                "use letters, digits and '_', a letter first");
-  const std::vector<std::string> keys{"source", "reason", "verdicts", "quantities", "within"};  // of [[published]]
+  const std::vector<std::string> keys{"source",     "reason",      "verdicts", "quantities", "within", "quantity",
+                                      "order_over", "relative_to", "at_most",  "at_least",   "worst",  "metric"};
   if (std::ranges::count(keys, name) > 0)
-    table.fail("name", fmt::format("'{}' is taken: it is a key of [[published]]", name), {}, "choose another name");
+    table.fail("name", fmt::format("'{}' is taken: it is a key of [[published]] or [[limit]]", name), {},
+               "choose another name");
   const auto& facts = RunFacts::names();
   if (std::ranges::count(facts, name) > 0)
     table.fail("name", fmt::format("'{}' is taken: it is a fact of each run", name), listed(facts), "choose another");
@@ -192,6 +194,48 @@ Published read_published(const Table& table, const StudyFile& study) {
   return published;
 }
 
+Limit read_limit(const Table& table, const StudyFile& study) {
+  std::vector<std::string> quantities;
+  for (const Quantity& quantity : study.quantities) quantities.push_back(quantity.name);
+  Limit limit{.quantity = table.choice("quantity", quantities)};
+  limit.selection = read_selection(table, study.axes);
+  if (table.has("order_over")) {
+    const auto axes = names_of(study.axes);
+    const std::string axis = table.choice("order_over", axes);
+    limit.order_over = static_cast<std::size_t>(std::ranges::find(axes, axis) - axes.begin());
+  }
+  if (table.has("relative_to")) {
+    const Selection other = read_selection(table.table("relative_to"), study.axes);
+    for (std::size_t a = 0; a < other.size(); ++a)
+      if (other[a].size() == 1 && !limit.relative_axis) {
+        limit.relative_axis = a;
+        limit.relative_value = other[a][0];
+      } else if (!other[a].empty()) {
+        table.fail("relative_to", "it must name one value of one axis", {}, "write relative_to = { AXIS = \"VALUE\" }");
+      }
+    if (!limit.relative_axis || limit.order_over)
+      table.fail("relative_to", "it must name one value of one axis, and goes with no 'order_over'");
+  }
+  if (table.has("at_most")) limit.at_most = table.number("at_most");
+  if (table.has("at_least")) limit.at_least = table.number("at_least");
+  limit.worst = table.flag("worst", false);
+  limit.quick = table.flag("quick", false);
+  limit.source = table.text("source", "");
+  limit.metric = table.text("metric", limit.order_over ? "observed order of " + limit.quantity : limit.quantity);
+  if (std::ranges::none_of(study.members, [&](const Choice& choice) { return holds(limit.selection, choice); }))
+    table.fail("quantity", "no member has the values that this limit names", {},
+               "leave an axis out, or add the member");
+  return limit;
+}
+
+/// An order that a limit needs is tabulated like any other.
+void add_order(StudyFile& study, const Limit& limit) {
+  if (limit.order_over && std::ranges::none_of(study.orders, [&](const OrderSpec& order) {
+        return order.quantity == limit.quantity && order.axis == *limit.order_over;
+      }))
+    study.orders.push_back({limit.quantity, *limit.order_over});
+}
+
 /// Members that [quick] keeps: those whose values it names.
 std::vector<Choice> reduced(const std::vector<Choice>& members, const Selection& kept) {
   std::vector<Choice> all;
@@ -219,16 +263,21 @@ StudyFile read_study(const Document& document, const std::filesystem::path& file
   const Table root = document.root();
   StudyFile study{.title = root.text("title", ""), .file = file, .base = {}, .set = root.leaves("set")};
   if (root.has("case")) study.base = read_base(root);
+  if (root.has("case") && root.has("measure"))
+    root.fail("measure", "the study has a case and a measurement", {}, "leave one of them out");
+  study.measures_consistency = root.has("measure") && root.choice("measure", {"consistency"}) == "consistency";
+  study.is_long = root.flag("long", false);
+  study.quick = quick;
   std::set<std::string> names;
   for (const Table& table : root.tables("axis")) {
     study.axes.push_back(read_axis(table));
     claim(table, study.axes.back().name, names);
     for (const AxisValue& value : study.axes.back().values)
-      if (study.base.empty() && value.base.empty() && root.tables("axis").size() == 1)
+      if (study.base.empty() && value.base.empty() && root.tables("axis").size() == 1 && !study.measures_consistency)
         table.fail("value", fmt::format("'{}' has no case to run", value.name), {},
                    "add case = \"case.toml\" to it, or to the top of the file");
   }
-  if (study.base.empty() && study.axes.empty())
+  if (study.base.empty() && study.axes.empty() && !study.measures_consistency)
     throw InputError({.what = "the study has no case",
                       .where = root.where(),
                       .why = "nothing would run",
@@ -251,6 +300,10 @@ StudyFile read_study(const Document& document, const std::filesystem::path& file
     const std::string axis = table.choice("axis", axes);
     study.orders.push_back(
         {table.choice("quantity", quantities), static_cast<std::size_t>(std::ranges::find(axes, axis) - axes.begin())});
+  }
+  for (const Table& table : root.tables("limit")) {
+    study.limits.push_back(read_limit(table, study));
+    add_order(study, study.limits.back());
   }
   const Table reduced_to = root.table("quick");
   study.quick_set = reduced_to.leaves("set");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "undine/app/study/limit.hpp"
 #include "undine/app/study/quantity.hpp"
 #include "undine/app/study/verdict.hpp"
 #include "undine/io/case/document.hpp"
@@ -27,11 +28,7 @@ struct Axis {
   std::vector<AxisValue> values = {};
 };
 
-/// For each axis, the number of the value that a member has.
-using Choice = std::vector<std::size_t>;
-
-/// For each axis, the values that are meant; none: all of them.
-using Selection = std::vector<std::vector<std::size_t>>;
+/// Whether a member with these values is meant.
 bool holds(const Selection& selection, const Choice& choice);
 
 /// What a source found for some members.
@@ -53,8 +50,11 @@ struct OrderSpec {
 struct StudyFile {
   std::string title = {};
   std::filesystem::path file = {};
-  std::string command = {};         ///< that made the table, for people
-  std::filesystem::path base = {};  ///< may be empty if every member's values name one
+  std::string command = {};           ///< that made the table, for people
+  std::filesystem::path base = {};    ///< may be empty if every member's values name one
+  bool measures_consistency = false;  ///< members are `undine approximate --consistency` in place of runs of a case
+  bool is_long = false;               ///< `undine verify` takes it only if it is named
+  bool quick = false;                 ///< reduced as its [quick] says
   std::vector<Table::Literal> set = {};
   std::vector<Table::Literal> quick_set = {};
   std::vector<Axis> axes = {};
@@ -63,6 +63,7 @@ struct StudyFile {
   std::vector<Verdict> verdicts = {};
   std::vector<Published> published = {};
   std::vector<OrderSpec> orders = {};
+  std::vector<Limit> limits = {};
 
   /// What formulas of quantities and verdicts may name: facts of the run, axes, quantities.
   Expression::Variables variables() const;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "undine/analysis/growth.hpp"
 #include "undine/core/error.hpp"
 
 namespace undine::study {
@@ -72,7 +73,7 @@ void add_published(Row& row, const StudyFile& study, const Member& member) {
   }
 }
 
-/// Least-squares slope of log |q| over log x for each group of members that differ in the axis alone.
+/// The exponent of |q| ~ x^k for each group of members that differ in the axis alone.
 void add_orders(ResultTable& table, const StudyFile& study, const std::vector<Member>& members, const OrderSpec& spec) {
   const auto names = study.variables();
   const auto column = static_cast<std::size_t>(std::ranges::find(names, spec.quantity) - names.begin());
@@ -92,10 +93,14 @@ void add_orders(ResultTable& table, const StudyFile& study, const std::vector<Me
       if (choice != group || members[k].status != Status::finished || !(at > 0) || !(value > 0) ||
           !std::isfinite(value))
         continue;
-      x.push_back(std::log(at));
-      y.push_back(std::log(value));
+      x.push_back(at);
+      y.push_back(value);
     }
-    Order order{.quantity = spec.quantity, .axis = study.axes[spec.axis].name, .group = {}, .order = slope(x, y)};
+    Order order{.quantity = spec.quantity,
+                .axis = study.axes[spec.axis].name,
+                .group = {},
+                .choice = group,
+                .order = growth_exponent(x, y)};
     for (std::size_t a = 0; a < group.size(); ++a)
       if (a != spec.axis) order.group[study.axes[a].name] = study.axes[a].values[group[a]].name;
     table.orders.push_back(std::move(order));

@@ -20,6 +20,7 @@ struct Row {
 struct Order {
   std::string quantity, axis = {};
   std::map<std::string, std::string> group = {};  ///< values of the other axes
+  Choice choice = {};                             ///< the same by number; 0 for the axis itself
   double order = 0;                               ///< NaN where fewer than two members have a positive number
 };
 

@@ -1,8 +1,8 @@
 // From samples to one number.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "undine/analysis/growth.hpp"
 #include "undine/app/gauges/comparison.hpp"
 #include "undine/app/study/quantity.hpp"
 
@@ -121,18 +121,6 @@ double deviation(const ReferenceSeries& reference, const std::vector<double>& x,
   if (!reference.relative) return best;
   const auto [least, most] = std::ranges::minmax(reference.y);
   return best / (most - least);
-}
-
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<double>(x.size());
-  const double x_mean = std::accumulate(x.begin(), x.end(), 0.0) / n;
-  const double y_mean = std::accumulate(y.begin(), y.end(), 0.0) / n;
-  double xx = 0, xy = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    xx += (x[k] - x_mean) * (x[k] - x_mean);
-    xy += (x[k] - x_mean) * (y[k] - y_mean);
-  }
-  return xx > 0 ? xy / xx : nan;
 }
 
 }  // namespace undine::study

@@ -6,6 +6,7 @@
 
 #include "undine/app/watchdog/pair_survey.hpp"
 #include "undine/app/watchdog/watch.hpp"
+#include "undine/geometry/embed.hpp"
 #include "undine/integrators/catalogue.hpp"
 #include "undine/schemes/force_parts.hpp"
 #include "undine/search/cell_grid.hpp"
@@ -14,13 +15,6 @@ namespace undine {
 namespace {
 
 using namespace field;
-
-template <int N>
-Vec3 in_3d(const Vec<N>& a) {
-  Vec3 b{};
-  for (int k = 0; k < N; ++k) b[k] = a[k];
-  return b;
-}
 
 /// The value that a share of the values does not exceed; but for few values, all except the largest.
 double quantile(std::vector<double> values, double share) {
@@ -181,7 +175,7 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
   const auto approach = store.template get<mu_cfl>();
   for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
     b.fastest = std::max(b.fastest, norm(u[i]));
-    if (has_walls) b.behind = std::max(b.behind, -setup.walls->depth(in_3d(at[i])));
+    if (has_walls) b.behind = std::max(b.behind, -setup.walls->depth(widen(at[i])));
     demands.push_back(std::max((store.template get<c>()[i] + (approach.empty() ? 0 : approach[i])) / (0.4 * e.h()),
                                std::sqrt(norm(a[i]) / e.h()) / 0.25));
     if (!flow.options().body_force) continue;
@@ -203,9 +197,9 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
   if (i >= fluid.end) return;
   auto& p = e.particle;
   const auto& material = flow.options().materials[static_cast<std::size_t>(store.materials()[i])];
-  p.x = in_3d(at[i]);
-  p.v = in_3d(u[i]);
-  p.acc = in_3d(a[i]);
+  p.x = widen(at[i]);
+  p.v = widen(u[i]);
+  p.acc = widen(a[i]);
   p.rho = store.template get<rho>()[i];
   p.rho_0 = material.rho_0;
   p.p = store.template get<field::p>()[i];
@@ -234,7 +228,7 @@ void collect_exit(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) {
     e.exit.downwards = pull > 0.5 * norm(flow.options().gravity);
     e.exit.upwards = pull < -0.5 * norm(flow.options().gravity);
   }
-  if (setup.walls && !setup.walls->empty()) e.particle.depth = setup.walls->depth(in_3d(at));
+  if (setup.walls && !setup.walls->empty()) e.particle.depth = setup.walls->depth(widen(at));
 }
 
 template <int N>
