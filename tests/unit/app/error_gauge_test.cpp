@@ -3,6 +3,7 @@
 #include "undine/analysis/norms.hpp"
 #include "undine/app/gauges/error.hpp"
 #include "undine/io/case/document.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
 #include "unit/io/io_test.hpp"
 
 namespace undine {

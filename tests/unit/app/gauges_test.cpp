@@ -7,6 +7,7 @@
 
 #include "undine/engine/interpolate.hpp"
 #include "undine/io/case/document.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
 #include "unit/io/io_test.hpp"
 
 namespace undine {

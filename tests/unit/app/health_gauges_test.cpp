@@ -4,6 +4,7 @@
 
 #include "undine/app/gauges.hpp"
 #include "undine/io/case/document.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
 #include "unit/io/io_test.hpp"
 
 namespace undine {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "flow.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
 
 namespace undine {
 namespace {
