@@ -25,10 +25,13 @@ struct Tag;
 namespace isa_v4 {
 struct Tag;
 }
+/// The set that every program has loops for, the plain ones among them.
+using BasicTag = isa_v2::Tag;
 #else
 namespace isa_native {
 struct Tag;
 }
+using BasicTag = isa_native::Tag;
 #endif
 
 /// Calls f.operator()<Tag>() with the tag (core/isa.hpp) of what is compiled for that set. The set must be one that

@@ -112,9 +112,7 @@ class PairSweep {
   void run_serial(const SweepContext<N>& context) {
     const int threads = omp_get_max_threads();
     omp_set_num_threads(1);
-    with_instructions(InstructionSet::basic, [&]<class Tag>() {
-      SweepEntry<Tag, N, Uses...>::plain(context, uses_, {target_, booking_, plain_path(context)});
-    });
+    SweepEntry<BasicTag, N, Uses...>::plain(context, uses_, {target_, booking_, plain_path(context)});
     omp_set_num_threads(threads);
   }
 
