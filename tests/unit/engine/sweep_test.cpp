@@ -39,6 +39,7 @@ struct Bench {
   Crowd<N> crowd;
   Neighbours<N> neighbours;
   Manner manner;
+  std::vector<std::pair<int, std::vector<double>>> before;  ///< fields that the last sweep wrote
 
   Bench(const Crowd<N>& made, const Manner& how, const std::string& search, bool store_lists)
       : crowd(made),
@@ -54,8 +55,15 @@ struct Bench {
   }
   /// What the terms in use add to the particles of a group.
   std::vector<std::vector<double>> results(EveryTerm<N>& sweep, const FieldSet& adds, const Backend& backend) {
-    for (int f = 0; f < FieldId::count; ++f)
-      if (adds[f]) std::ranges::fill(crowd.store.raw(f), 1e99);
+    // What one term adds another may read: it is as it was before the last sweep.
+    for (const auto& [f, numbers] : before) std::ranges::copy(numbers, crowd.store.raw(f).begin());
+    before.clear();
+    for (int f = 0; f < FieldId::count; ++f) {
+      if (!adds[f]) continue;
+      const auto raw = crowd.store.raw(f);
+      before.emplace_back(f, std::vector<double>(raw.begin(), raw.end()));
+      std::ranges::fill(raw, 1e99);
+    }
     sweep.run(context(), backend);
     const IndexRange r = crowd.store.range(sweep.target());
     std::vector<std::vector<double>> values;

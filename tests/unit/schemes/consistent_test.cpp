@@ -94,7 +94,8 @@ TEST(Shifting, MovesTowardsEmptySpace) {
     for (const Vec<2>& other : flow.store().get<x>()) {
       const Vec<2> d = at - other;
       const double R = norm(d) / support;
-      if (R < 1) gradient += sq(spacing) * WendlandC2::slope_over_R<2>(R) / std::pow(support, 4) * d;
+      if (R < 1)
+        gradient += sq(spacing) * WendlandC2::alpha<2>() * WendlandC2::slope_over_R<2>(R) / std::pow(support, 4) * d;
     }
     for (int k = 0; k < 2; ++k) EXPECT_NEAR(s[k], -0.5 * c_0 * support * gradient[k], 1e-9);
     if (at[0] > 0.49 && std::abs(at[1]) < 0.01) {

@@ -62,7 +62,8 @@ template <int N, class Term, class Sweep>
 double difference(Bench<N>& bench, Sweep& sweep, const Term& term, PairPrecision precision) {
   bench.run(sweep, precision);
   auto expected = bench.particles();
-  test::sum_all<N>(expected, bench.kernel(), term);
+  constexpr bool both = std::is_same_v<Sweep, typename GasSweeps<N>::Force>;
+  test::sum_all<N>(expected, bench.kernel(), term, both ? test::Neighbourhood::either : test::Neighbourhood::mean);
   double worst = 0;
   Term::adds::for_each([&]<class F>(F) {
     double largest = 0, apart = 0;

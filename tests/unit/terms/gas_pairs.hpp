@@ -66,9 +66,14 @@ GasParticle<N> random_particle(Random& random) {
   return a;
 }
 
+/// Which pairs count for a largest value: those within the mean of both H, or, as in sweeps that take both, within
+/// either.
+enum class Neighbourhood { mean, either };
+
 /// Adds what the term gives to each particle, over all pairs; sums with the target's own support where it wants that.
 template <int N, class Term>
-void sum_all(std::vector<GasParticle<N>>& crowd, const KernelChoice& kernel, const Term& term) {
+void sum_all(std::vector<GasParticle<N>>& crowd, const KernelChoice& kernel, const Term& term,
+             Neighbourhood near = Neighbourhood::mean) {
   for (auto& a : crowd) {
     typename Term::adds::template Row<N, double> total{};
     for (const auto& b : crowd) {
@@ -81,7 +86,8 @@ void sum_all(std::vector<GasParticle<N>>& crowd, const KernelChoice& kernel, con
       const auto one = term(a, b, ab);
       Term::adds::for_each([&]<class F>(F) {
         if constexpr (F::info.join == Join::max) {
-          if (ab.inside) F::of(total) = std::max(F::of(total), F::of(one));
+          if (near == Neighbourhood::either ? ab.r < std::max(a.h, b.h) : ab.inside)
+            F::of(total) = std::max(F::of(total), F::of(one));
         } else {
           F::of(total) += F::of(one);
         }
