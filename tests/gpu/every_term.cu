@@ -17,8 +17,7 @@ using PairFor = std::conditional_t<takes_two<Term>, PairOfTwo<N, V>, Pair<N, V>>
 
 template <int N, class V, class Term>
 __global__ void one_pair(Term term, const typename Term::reads::template Row<N, V>* rows,
-                         const PairFor<N, V, Term>* pairs,
-                         typename Term::adds::template Row<N, V>* out) {
+                         const PairFor<N, V, Term>* pairs, typename Term::adds::template Row<N, V>* out) {
   const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
   const auto row = term(rows[0], rows[i], pairs[i]);
   Term::adds::for_each([&]<class F>(F) { F::of(out[i]) += F::of(row); });
