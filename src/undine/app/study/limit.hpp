@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-
 namespace undine::study {
 
 /// For each axis, the number of the value that a member has.
