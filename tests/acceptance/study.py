@@ -36,7 +36,8 @@ def smoke(program, study, folder):
         require(row["status"] == "finished", f"{name}: {row['status']} {row['error']}")
     for member in data["members"]:
         require(list(member["axes"]) == [axis["name"] for axis in data["axes"]], f"{member['name']} has a value on each axis")
-    lines = [line for line in open(os.path.join(out, "study.md"), encoding="utf-8") if line.startswith("| ")][2:]
+    page = open(os.path.join(out, "study.md"), encoding="utf-8").read().split("\n| ", 1)[1]  # the first table of the page
+    lines = page.split("\n\n", 1)[0].splitlines()[2:]
     require(len(lines) == len(rows), f"{len(lines)} rows in study.md")
     for member in data["members"]:
         require(all(member["verdicts"].get(verdict["name"]) for verdict in data["verdicts"]), f"{member['name']} has each verdict")

@@ -7,6 +7,7 @@
 #include "undine/app/gauges.hpp"
 #include "undine/app/gauges/context.hpp"
 #include "undine/app/run_output.hpp"
+#include "undine/app/watchdog/limits.hpp"
 #include "undine/io/checksum.hpp"
 
 namespace undine {
@@ -17,6 +18,7 @@ CaseOutline outline(const Document& document, const RunOptions& options) {
   const Table root = document.root();
   const CaseSetup<N> setup = read_case<N>(root);
   const OutputPlan output = read_output(root, options, setup.choice.end);
+  read_watch_limits(root);  // no more than looked at: it changes no result
   const GaugeSet<N> gauges(root, gauge_context(setup, output));
   document.finish();
 
