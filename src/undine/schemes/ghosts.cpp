@@ -71,7 +71,8 @@ void Ghosts<N>::make(Store<N>& store, double reach) const {
   const std::size_t first = store.range(Group::wall).begin;
   std::size_t next = first;
   for (const auto& part : parts)
-    for (const auto& [parent, image] : part) {
+    for (const auto& [its_parent, image] : part) {
+      const std::size_t parent = its_parent;  // clang 14 lets no lambda capture a structured binding
       store.ids()[next] = id_of(store.ids()[parent], image.mirror);
       store.materials()[next] = store.materials()[parent];
       for (int f = 0; f < FieldId::count; ++f) {

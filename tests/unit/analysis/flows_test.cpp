@@ -29,7 +29,8 @@ TEST(TaylorGreen, SolvesTheNavierStokesEquations) {
   const TaylorGreen s{.U = 1.3, .L = 0.7, .rho = 1.9, .mu = 0.02};
   const double t = 0.31, d = 1e-3;
   const auto part = [&](std::size_t field, double x, double y, double at) { return s.at(at)({{x, y}})[field]; };
-  for (const auto& [x, y] : {std::pair(0.11, 0.05), {0.4, 0.62}, {0.33, -0.2}}) {
+  for (const auto& place : {std::pair(0.11, 0.05), {0.4, 0.62}, {0.33, -0.2}}) {
+    const double x = place.first, y = place.second;  // clang 14 lets no lambda capture a structured binding
     const auto in_x = [&](std::size_t f) { return slope([&](double a) { return part(f, a, y, t); }, x, d); };
     const auto in_y = [&](std::size_t f) { return slope([&](double a) { return part(f, x, a, t); }, y, d); };
     const double u = part(0, x, y, t), v = part(1, x, y, t);

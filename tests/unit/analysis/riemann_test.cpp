@@ -116,8 +116,8 @@ TEST(Riemann, JumpsObeyRankineAndHugoniot) {
       const double flux = std::abs(a.rho * ua) + std::abs(b.rho * ub);
       EXPECT_NEAR(a.rho * ua, b.rho * ub, 1e-7 * (flux + a.rho + b.rho)) << speed;
       EXPECT_NEAR(a.rho * ua * ua + a.p, b.rho * ub * ub + b.p, 1e-7 * (a.p + b.p + flux)) << speed;
-      const auto enthalpy = [&](const GasState& k, double u) {
-        return 0.5 * u * u + s.gamma / (s.gamma - 1) * k.p / k.rho;
+      const auto enthalpy = [gamma = s.gamma](const GasState& k, double u) {
+        return 0.5 * u * u + gamma / (gamma - 1) * k.p / k.rho;
       };
       if (std::abs(ua) < 1e-6 * (1 + std::abs(speed))) continue;  // the contact: nothing flows through
       ++shocks;
@@ -173,7 +173,9 @@ TEST(Riemann, ConservesMassMomentumAndEnergy) {
       momentum += rho * v * dx;
       energy += rho * (0.5 * v * v + e) * dx;
     }
-    const auto density = [&](double rho, double v, double p) { return 0.5 * rho * v * v + p / (s.gamma - 1); };
+    const auto density = [gamma = s.gamma](double rho, double v, double p) {
+      return 0.5 * rho * v * v + p / (gamma - 1);
+    };
     const double eL = density(s.rho_left, s.v_left, s.p_left), eR = density(s.rho_right, s.v_right, s.p_right);
     const double jL = s.rho_left * s.v_left, jR = s.rho_right * s.v_right;
     const double cells = 2 * X / n * 5;
