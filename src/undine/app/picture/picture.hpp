@@ -17,7 +17,7 @@ enum class WallStyle {
 };
 
 /// A plane across an axis, beyond which nothing is drawn.
-struct Cut {
+struct CutAway {
   int axis = 0;
   bool above = true;  ///< cuts away what is above `at`, else what is below
   double at = 0;      ///< m
@@ -30,7 +30,7 @@ struct PictureStyle {
   std::string title = {};
   int width = 1280, height = 720;
   WallStyle walls = WallStyle::behind;
-  std::optional<Cut> cut = {};
+  std::optional<CutAway> cut = {};
   CameraOptions camera = {};
   Vec<3> up{{0, 0, 1}};          ///< against gravity
   int wall_layers = 3;           ///< of particles, the most that a wall has

@@ -43,9 +43,9 @@ void read_size(const std::string& text, PictureStyle& style) {
   if (!good) refuse("size", text, fmt::format("write it as 1280x720: two even numbers from 64 to {}", largest_side));
 }
 
-std::optional<Cut> read_cut(const std::string& text) {
+std::optional<CutAway> read_cut(const std::string& text) {
   if (text.empty()) return {};
-  Cut cut;
+  CutAway cut;
   const bool good = text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && (text[1] == '>' || text[1] == '<') &&
                     parse(std::string_view(text).substr(2), cut.at) && std::isfinite(cut.at);
   if (!good) refuse("cut", text, "write what is cut away, such as 'y>0.5' or 'x<1', in m");

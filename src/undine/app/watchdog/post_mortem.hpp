@@ -12,7 +12,7 @@ namespace undine {
 
 /// An alarm with its moment in the run.
 struct AlarmedRun {
-  Hit hit;
+  AlarmHit hit;
   double time = 0, dt = 0;     ///< s
   std::int64_t step = 0;       ///< the one that led to it
   std::int64_t last_good = 0;  ///< steps after which the state was still sound

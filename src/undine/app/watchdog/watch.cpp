@@ -150,19 +150,20 @@ void Watch<N>::audit(const Flow<N>& flow) {
 }
 
 template <int N>
-std::optional<Hit> hit_of_state(const Flow<N>& flow) {
+std::optional<AlarmHit> hit_of_state(const Flow<N>& flow) {
   const Store<N>& store = flow.store();
   const auto a = store.template get<acc>();
   const auto bad = [&](std::size_t i) { return !is_finite(store, i) || !std::isfinite(norm_sq(a[i])); };
-  if (const std::size_t i = find_fluid(store, bad); i < store.size()) return Hit{Alarm::not_finite, store.ids()[i]};
+  if (const std::size_t i = find_fluid(store, bad); i < store.size())
+    return AlarmHit{Alarm::not_finite, store.ids()[i]};
   const auto out = [&](std::size_t i) { return !flow.domain().contains(store.template get<x>()[i]); };
-  if (const std::size_t i = find_fluid(store, out); i < store.size()) return Hit{Alarm::outside, store.ids()[i]};
+  if (const std::size_t i = find_fluid(store, out); i < store.size()) return AlarmHit{Alarm::outside, store.ids()[i]};
   return {};
 }
 
-template std::optional<Hit> hit_of_state(const Flow<1>&);
-template std::optional<Hit> hit_of_state(const Flow<2>&);
-template std::optional<Hit> hit_of_state(const Flow<3>&);
+template std::optional<AlarmHit> hit_of_state(const Flow<1>&);
+template std::optional<AlarmHit> hit_of_state(const Flow<2>&);
+template std::optional<AlarmHit> hit_of_state(const Flow<3>&);
 template class Watch<1>;
 template class Watch<2>;
 template class Watch<3>;

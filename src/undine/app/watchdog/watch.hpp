@@ -12,18 +12,18 @@
 namespace undine {
 
 /// What the watchdog hit on.
-struct Hit {
+struct AlarmHit {
   Alarm alarm = Alarm::not_finite;
   std::int64_t particle = -1;  ///< id; -1: all together
 };
 
 class AlarmError : public RunError {
  public:
-  AlarmError(const Hit& hit, Parts parts) : RunError(std::move(parts)), hit_(hit) {}
-  const Hit& hit() const { return hit_; }
+  AlarmError(const AlarmHit& hit, Parts parts) : RunError(std::move(parts)), hit_(hit) {}
+  const AlarmHit& hit() const { return hit_; }
 
  private:
-  Hit hit_;
+  AlarmHit hit_;
 };
 
 /// Looks after a run and changes nothing in it. Throws AlarmError.
@@ -68,7 +68,7 @@ bool is_stiff(const materials::Material& material);
 
 /// What a RunError of the moves themselves is about, by the state that they left; nothing where the state is sound.
 template <int N>
-std::optional<Hit> hit_of_state(const Flow<N>& flow);
+std::optional<AlarmHit> hit_of_state(const Flow<N>& flow);
 
 extern template class Watch<1>;
 extern template class Watch<2>;
