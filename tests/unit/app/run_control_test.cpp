@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "undine/io/atomic_file.hpp"
+#include "unit/io/io_test.hpp"
 
 namespace undine {
 namespace {
@@ -31,7 +32,8 @@ class RunControlTest : public ::testing::Test {
     control_.obey(stop_, start_, [this] { told_.push_back(control_.paused()); });
   }
 
-  fs::path folder_ = fs::path(::testing::TempDir()) / "undine_run_control";
+  test::TemporaryFolder place_;  // of its own: tests run side by side
+  fs::path folder_ = place_.path() / "run";
   RunControl control_;
   std::atomic<bool> stop_{false};
   RunControl::Clock::time_point start_ = {};
