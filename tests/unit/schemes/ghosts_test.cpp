@@ -93,7 +93,9 @@ double difference_from_whole(int side, int planes, int steps, DensityForm densit
   WeaklyCompressible<N> part(lump<N>(side, planes, false, spacing, support), domain, options);
   test::run_steps<Leapfrog>(whole, steps, 1e-3);
   test::run_steps<Leapfrog>(part, steps, 1e-3);
-  EXPECT_GT(part.list_builds(), 1);
+  if (!test::under_sanitizer) {  // fewer steps are too few to need new lists
+    EXPECT_GT(part.list_builds(), 1);
+  }
   EXPECT_GT(part.store().range(Group::wall).size(), 0);
   std::vector<std::size_t> place(whole.store().size());
   for (std::size_t i = 0; i < place.size(); ++i) place[whole.store().ids()[i]] = i;
