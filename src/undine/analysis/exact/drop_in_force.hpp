@@ -7,7 +7,8 @@ namespace undine::exact {
 
 /// A drop without viscosity and surface tension, held together by a force -B^2 r and stretched at the start by
 /// v = A_0 (x, -y). The velocity stays linear in space, so the drop stays an ellipse with half-axes a = R s, b = R/s,
-/// and Euler's equations come down to two ordinary ones, for A and s. (A^2 + B^2)(s^2 + 1/s^2), the energy, is constant.
+/// and Euler's equations come down to two ordinary ones, for A and s. (A^2 + B^2)(s^2 + 1/s^2), the energy, is
+/// constant.
 struct DropInForce {
   static constexpr Info info{"drop_in_force", "Drop that oscillates in a central force, 2-D",
                              "v = A (x, -y), p = rho C/2 (1 - x^2/a^2 - y^2/b^2), C = 2 (A^2+B^2) a^2 b^2/(a^2+b^2), "
