@@ -13,7 +13,6 @@
 #include "undine/core/error.hpp"
 #include "undine/io/atomic_file.hpp"
 #include "undine/io/case/document.hpp"
-#include "undine/io/checksum.hpp"
 #include "undine/io/output_folder.hpp"
 #include "undine/io/run_record.hpp"
 
@@ -69,12 +68,7 @@ Wanted read_wanted(const std::vector<std::string>& sets) {
   for (int N = 1; N <= 3; ++N)
     if (dimensions == 0 || dimensions == N) wanted.dimensions.push_back(N);
   document.finish();
-  Hash64 hash;
-  for (const auto& [key, value] : document.resolved()) {
-    const std::string line = key + "=" + value + "\n";
-    hash.add_values(std::span<const char>(line));
-  }
-  wanted.hash = hash.text();
+  wanted.hash = document.hash();
   return wanted;
 }
 

@@ -14,10 +14,7 @@ void read_density(const Table& scheme, std::string_view fallback, GasOptions<N>&
   auto words = terms::ContinuityForms::names();
   words.insert(words.end(), {"summation", "normalised_summation"});
   const std::string form = read_form<terms::GradHDensities>(table, fallback, words);
-  options.density = form == "summation"                          ? DensityForm::summation
-                    : form == "normalised_summation"             ? DensityForm::normalised
-                    : terms::GradHDensities::index_of(form) >= 0 ? DensityForm::grad_h
-                                                                 : DensityForm::evolved;
+  options.density = terms::GradHDensities::index_of(form) >= 0 ? DensityForm::grad_h : density_form(form);
   options.grad_h.choose(std::max(0, terms::GradHDensities::index_of(form)));
   options.continuity.choose(std::max(0, terms::ContinuityForms::index_of(form)));
 }

@@ -8,7 +8,6 @@
 #include "undine/app/gauges/context.hpp"
 #include "undine/app/run_output.hpp"
 #include "undine/app/watchdog/limits.hpp"
-#include "undine/io/checksum.hpp"
 
 namespace undine {
 namespace {
@@ -39,12 +38,7 @@ CaseOutline outline(const Document& document, const RunOptions& options) {
   const double h = setup.options().support.uniform / setup.options().support.kappa;
   result.step = limits.fixed > 0 ? limits.fixed
                                  : std::min(limits.largest, limits.courant * h / (sound_speed + setup.expected_speed));
-  Hash64 hash;
-  for (const auto& [key, value] : document.resolved()) {
-    const std::string line = key + "=" + value + "\n";
-    hash.add_values(std::span<const char>(line));
-  }
-  result.hash = hash.text();
+  result.hash = document.hash();
   return result;
 }
 

@@ -130,9 +130,7 @@ SchemeChoice read_liquid(const Table& root, double spacing, WeaklyCompressibleOp
 
   const std::string density = read_form<terms::ContinuityForms>(scheme.table("density"), Preset::density,
                                                                 {"summation", "normalised_summation"});
-  options.density = density == "summation"              ? DensityForm::summation
-                    : density == "normalised_summation" ? DensityForm::normalised
-                                                        : DensityForm::evolved;
+  options.density = density_form(density);
   options.continuity.choose(std::max(0, terms::ContinuityForms::index_of(density)));
   options.pressure.choose(
       terms::PressureForms::index_of(read_form<terms::PressureForms>(scheme.table("pressure"), Preset::pressure)));

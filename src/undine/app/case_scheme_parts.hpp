@@ -27,6 +27,13 @@ std::optional<OneOf<List>> read_optional(const Table& table, std::string_view fa
   return choice;
 }
 
+/// The density form of a word: a sum, or else evolved by the continuity form of that name.
+inline DensityForm density_form(std::string_view word) {
+  return word == "summation"              ? DensityForm::summation
+         : word == "normalised_summation" ? DensityForm::normalised
+                                          : DensityForm::evolved;
+}
+
 /// What a preset says of the keys that all schemes have.
 struct PresetBasics {
   std::string_view kernel, wall, wall_reference, integrator;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "undine/app/gauges/catalogue.hpp"
+#include "undine/app/gauges/column.hpp"
 #include "undine/core/nearest.hpp"
 
 namespace undine {
@@ -27,16 +28,6 @@ std::unique_ptr<Gauge<N>> make_gauge(Catalogue<Types...> types, const Table& tab
 /// Which multiple of `every` was passed last. A function of the time alone, so that a resumed run samples as an
 /// unbroken one.
 double due_index(double time, double every) { return std::floor(time / every + 1e-9); }
-
-/// A column of published data, by the name in the case file, or else column number k.
-const CsvColumn& find_column(const Table& table, std::string_view key, const CsvTable& data, std::size_t k) {
-  std::vector<std::string> names;
-  for (const CsvColumn& column : data.columns) names.push_back(column.name);
-  const std::string name = k < names.size() ? table.text(key, names[k]) : table.text(key);
-  if (const CsvColumn* found = data.find(name)) return *found;
-  table.fail(key, fmt::format("'{}' has no column '{}'", data.path.string(), name),
-             fmt::format("its columns are: {}", listed(names)), did_you_mean(name, names));
-}
 
 }  // namespace
 
@@ -84,8 +75,8 @@ auto GaugeSet<N>::read_reference(const Table& table, const std::vector<SeriesCol
     table.fail("file", fmt::format("there is no file '{}'", file.string()), {},
                "names are relative to the case file's folder");
   const CsvTable data = read_csv(file);
-  const CsvColumn& time = find_column(table, "time", data, 0);
-  const CsvColumn& value = find_column(table, "value", data, 1);
+  const CsvColumn& time = gauges::find_column(table, "time", data, 0);
+  const CsvColumn& value = gauges::find_column(table, "value", data, 1);
   std::vector<std::string> names;
   for (const SeriesColumn& column : columns) names.push_back(column.name);
   Reference reference{table.choice("column", names, names.front()), {time.values, value.values}, 0};

@@ -12,9 +12,8 @@ namespace undine {
 namespace {
 
 const std::vector<std::string> energy_comments{
-    "kinetic, potential, elastic: energies of the fluid, elastic the internal energy of a gas; the next columns: what "
-    "each "
-    "term took out of them since t = 0",
+    "kinetic, potential, elastic: energies of the fluid, elastic the internal energy of a gas; the next columns: "
+    "what each term took out of them since t = 0",
     "viscous, artificial: viscosities; diffusion: density diffusion; exchange: pressure work without matching "
     "compression;",
     "walls: given to walls; xsph: moved against gravity by XSPH; body: given to imposed fields",

@@ -96,6 +96,14 @@ constexpr auto outer(const Vec<N, A>& a, const Vec<N, B>& b) {
   return t;
 }
 
+/// t . n of a tensor and a vector.
+template <int N, class A, class B>
+constexpr auto times(const Vec<N, Vec<N, A>>& t, const Vec<N, B>& n) {
+  Vec<N, decltype(t[0][0] * n[0])> p;
+  for (int k = 0; k < N; ++k) p[k] = dot(t[k], n);
+  return p;
+}
+
 /// Square, cube and whole powers, so that equations read as they are printed.
 template <class T>
 constexpr auto sq(const T& a) {

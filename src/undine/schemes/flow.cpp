@@ -291,6 +291,19 @@ std::vector<typename Flow<N>::Evolved> Flow<N>::evolved() const {
 }
 
 template <int N>
+Energies Flow<N>::energies_of_motion() const {
+  const auto at = store_.template get<x>();
+  const auto u = store_.template get<v>();
+  const auto mass = store_.template get<m>();
+  const auto sum = [&](auto&& f) { return total_over(store_, Group::fluid, f); };
+  Energies e;
+  e.kinetic = sum([&](std::size_t i) { return 0.5 * mass[i] * norm_sq(u[i]); });
+  e.potential = -sum([&](std::size_t i) { return mass[i] * dot(common_->gravity, at[i] - potential_origin_); });
+  e.ledger = ledger_;
+  return e;
+}
+
+template <int N>
 std::vector<double*> Flow<N>::accounts() {
   auto& l = ledger_;
   return {&l.viscous, &l.artificial, &l.diffusion, &l.exchange, &l.walls, &l.xsph, &l.body};

@@ -110,6 +110,16 @@ class Flow {
   /// Numbers that rates left behind and `book` needs, and accounts: what a checkpoint keeps besides time and lists.
   virtual std::vector<double*> remembered() = 0;
   std::vector<double*> accounts();
+  /// Appends the powers that a sweep booked.
+  template <class Sweep>
+  static void remember_powers(Sweep& sweep, std::vector<double*>& numbers) {
+    const auto one = [&](Power& power) {
+      for (double& number : power) numbers.push_back(&number);
+    };
+    std::apply([&](auto&... use) { (one(use.power), ...); }, sweep.uses());
+  }
+  /// Kinetic and potential energy, and the accounts; what compression stored is left to the scheme.
+  Energies energies_of_motion() const;
 
   // Making the plan.
   template <class Sweep>
@@ -161,7 +171,6 @@ class Flow {
   Plan plan_;
   double body_power_ = 0;  ///< of the imposed force at the last evaluation, W
   double time_ = 0;
-  Vec<N> potential_origin_{};
   Energies::Ledger ledger_;
 
  private:
@@ -185,6 +194,7 @@ class Flow {
   PairSweep<N, Use<terms::Summation>> summation_{"summation", Group::fluid};
   PairSweep<N, Use<terms::ShepardSum>> shepard_{"shepard sum", Group::fluid};
   std::vector<SweepNote> sweeps_;
+  Vec<N> potential_origin_{};
   double support_now_ = 0;
   double time_start_ = 0;
   double step_end_ = 0;  ///< when the last step ended, s

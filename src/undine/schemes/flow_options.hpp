@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -46,6 +47,12 @@ enum class DensityForm {
   grad_h       ///< summed with each particle's own H, which follows it
 };
 
+/// The continuity form by which a density changes: a summed one as its derivative says, whichever form the case names.
+inline OneOf<terms::ContinuityForms> rate_form(DensityForm density, OneOf<terms::ContinuityForms> named) {
+  if (density != DensityForm::evolved) named.choose(terms::ContinuityForms::index<terms::Continuity>());
+  return named;
+}
+
 /// The choices of a run that every scheme has, as data.
 template <int N>
 struct FlowOptions {
@@ -90,5 +97,23 @@ struct Step {
   double dt;
   const char* limiter;  ///< "fixed", "courant", "force", "viscous", "largest"
 };
+
+/// The largest rates of any particle, by which its limits act: of signals, 1/s; the square of acceleration over h,
+/// 1/s^4; of viscosity over h^2, 1/s, 0 without one.
+struct StepRates {
+  double signal = 0, force_sq = 0, viscous = 0;
+};
+
+/// The smallest of what the limits allow.
+inline Step shortest_step(const StepLimits& limits, const StepRates& rates) {
+  Step step{limits.largest, "largest"};
+  const auto limit = [&](double dt, const char* name) {
+    if (dt < step.dt) step = {dt, name};
+  };
+  limit(limits.courant / rates.signal, "courant");
+  limit(limits.force / std::sqrt(std::sqrt(rates.force_sq)), "force");
+  if (rates.viscous > 0) limit(limits.viscous / rates.viscous, "viscous");
+  return step;
+}
 
 }  // namespace undine

@@ -42,7 +42,6 @@ class Gas : public Flow<N> {
   using Flow<N>::plan_;
   using Flow<N>::body_power_;
   using Flow<N>::time_;
-  using Flow<N>::potential_origin_;
   using Flow<N>::ledger_;
   using Sweeps = GasSweeps<N>;
   using Shared = WeaklyCompressibleSweeps<N>;

@@ -36,9 +36,7 @@ Gas<N>::Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Optio
 template <int N>
 void Gas<N>::configure() {
   const std::array<bool, group_count> from{true, mirrored_}, from_fluid{true, false};
-  auto continuity = typename Sweeps::Continuity{options_.continuity};
-  // A summed density changes as its derivative says, whichever continuity form the case names.
-  if (options_.density != DensityForm::evolved) continuity.choose(terms::ContinuityForms::index<terms::Continuity>());
+  const typename Sweeps::Continuity continuity{rate_form(options_.density, options_.continuity)};
   const auto chosen = []<class Term>(const std::optional<Term>& term) { return term.value_or(Term{}); };
 
   density_.template use<0>() = {options_.grad_h, true, from, {}};
@@ -347,27 +345,14 @@ Step Gas<N>::stable_step(const StepLimits& limits) const {
     const double rate = kappa / H[i];
     return Vec<3>{{signal[i] * rate, norm_sq(a[i]) * sq(rate), viscous ? viscosity[i] / density[i] * sq(rate) : 0.0}};
   });
-  Step step{limits.largest, "largest"};
-  const auto limit = [&](double dt, const char* name) {
-    if (dt < step.dt) step = {dt, name};
-  };
-  limit(limits.courant / fastest[0], "courant");
-  limit(limits.force / std::sqrt(std::sqrt(fastest[1])), "force");
-  if (viscous) limit(limits.viscous / fastest[2], "viscous");
-  return step;
+  return shortest_step(limits, {fastest[0], fastest[1], fastest[2]});
 }
 
 template <int N>
 Energies Gas<N>::energies() const {
-  const auto at = store_.template get<x>();
-  const auto u = store_.template get<v>();
   const auto mass = store_.template get<m>(), energy = store_.template get<e>();
-  const auto sum = [&](auto&& f) { return total_over(store_, Group::fluid, f); };
-  Energies all;
-  all.kinetic = sum([&](std::size_t i) { return 0.5 * mass[i] * norm_sq(u[i]); });
-  all.potential = -sum([&](std::size_t i) { return mass[i] * dot(options_.gravity, at[i] - potential_origin_); });
-  all.elastic = sum([&](std::size_t i) { return mass[i] * energy[i]; });
-  all.ledger = ledger_;
+  Energies all = this->energies_of_motion();
+  all.elastic = total_over(store_, Group::fluid, [&](std::size_t i) { return mass[i] * energy[i]; });
   return all;
 }
 
@@ -385,14 +370,8 @@ template <int N>
 std::vector<double*> Gas<N>::remembered() {
   std::vector<double*> numbers{&body_power_};
   std::ranges::copy(this->accounts(), std::back_inserter(numbers));
-  const auto each = [&](auto&... use) {
-    const auto one = [&](Power& power) {
-      for (double& number : power) numbers.push_back(&number);
-    };
-    (one(use.power), ...);
-  };
-  std::apply(each, force_.uses());
-  if (options_.repulsion) std::apply(each, push_.uses());
+  this->remember_powers(force_, numbers);
+  if (options_.repulsion) this->remember_powers(push_, numbers);
   return numbers;
 }
 

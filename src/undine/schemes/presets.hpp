@@ -83,8 +83,7 @@ struct Confined {
   static constexpr Info info{
       "confined", "What we find best for viscous flow without a free surface",
       "Wendland C2, H = 3 dp, volume-weighted continuity, pressure differences, Morris viscosity, antuono diffusion, "
-      "all "
-      "with corrected gradients; Fickian shifting; linear equation of state; Adami walls that pull, without slip",
+      "all with corrected gradients; Fickian shifting; linear equation of state; Adami walls that pull, without slip",
       "docs/viscous.md"};
   static constexpr std::string_view kernel = "wendland_c2", density = "continuity_volume", pressure = "difference",
                                     viscosity = "morris", artificial = "none", diffusion = "antuono", xsph = "none",

@@ -38,7 +38,6 @@ class WeaklyCompressible : public Flow<N> {
   using Flow<N>::plan_;
   using Flow<N>::body_power_;
   using Flow<N>::time_;
-  using Flow<N>::potential_origin_;
   using Flow<N>::ledger_;
   using Sweeps = WeaklyCompressibleSweeps<N>;
   using Consistent = ConsistentSweeps<N>;

@@ -38,9 +38,7 @@ void WeaklyCompressible<N>::configure() {
   const bool at_rest = options_.ghost_hydrostatic || norm_sq(options_.gravity) == 0;
   const bool ghosts_diffuse = ghosts && at_rest && !renormalises();
 
-  auto continuity = options_.continuity;
-  // A summed density changes as its derivative says, whichever continuity form the case names.
-  if (options_.density != DensityForm::evolved) continuity.choose(terms::ContinuityForms::index<terms::Continuity>());
+  const auto continuity = rate_form(options_.density, options_.continuity);
 
   const auto chosen = []<class Term>(const std::optional<Term>& term) { return term.value_or(Term{}); };
   force_.template use<Sweeps::pressure>().term = options_.pressure;
@@ -266,30 +264,17 @@ Step WeaklyCompressible<N>::stable_step(const StepLimits& limits) const {
     return Vec<3>{{(sound[i] + approach[i]) * rate, norm_sq(a[i]) * sq(rate),
                    viscous ? viscosity[i] / density[i] * sq(rate) : 0.0}};
   });
-
-  Step step{limits.largest, "largest"};
-  const auto limit = [&](double dt, const char* name) {
-    if (dt < step.dt) step = {dt, name};
-  };
-  limit(limits.courant / fastest[0], "courant");
-  limit(limits.force / std::sqrt(std::sqrt(fastest[1])), "force");
-  if (viscous) limit(limits.viscous / fastest[2], "viscous");
-  return step;
+  return shortest_step(limits, {fastest[0], fastest[1], fastest[2]});
 }
 
 template <int N>
 Energies WeaklyCompressible<N>::energies() const {
-  const auto at = store_.template get<x>();
-  const auto u = store_.template get<v>();
   const auto mass = store_.template get<m>();
   const auto density = store_.template get<rho>();
   const auto material = store_.materials();
-  const auto sum = [&](auto&& f) { return total_over(store_, Group::fluid, f); };
-  Energies e;
-  e.kinetic = sum([&](std::size_t i) { return 0.5 * mass[i] * norm_sq(u[i]); });
-  e.potential = -sum([&](std::size_t i) { return mass[i] * dot(options_.gravity, at[i] - potential_origin_); });
-  e.elastic = sum([&](std::size_t i) { return mass[i] * options_.materials[material[i]].energy(density[i]); });
-  e.ledger = ledger_;
+  Energies e = this->energies_of_motion();
+  e.elastic = total_over(store_, Group::fluid,
+                         [&](std::size_t i) { return mass[i] * options_.materials[material[i]].energy(density[i]); });
   e.strain_power = strain_power_;
   e.strain_dissipated = strain_dissipated_;
   return e;
@@ -299,18 +284,12 @@ template <int N>
 std::vector<double*> WeaklyCompressible<N>::remembered() {
   std::vector<double*> numbers{&body_power_, &strain_power_, &strain_dissipated_};
   std::ranges::copy(this->accounts(), std::back_inserter(numbers));
-  const auto each = [&](auto&... use) {
-    const auto one = [&](Power& power) {
-      for (double& number : power) numbers.push_back(&number);
-    };
-    (one(use.power), ...);
-  };
   if (options_.consistent()) {
-    std::apply(each, consistent_force_.uses());
+    this->remember_powers(consistent_force_, numbers);
   } else {
-    std::apply(each, force_.uses());
+    this->remember_powers(force_, numbers);
   }
-  if (pushes()) std::apply(each, push_.uses());
+  if (pushes()) this->remember_powers(push_, numbers);
   return numbers;
 }
 

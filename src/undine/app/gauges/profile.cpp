@@ -4,23 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "undine/app/gauges/column.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/engine/corrected_interpolation.hpp"
 
 namespace undine::gauges {
-namespace {
-
-const CsvColumn& column_of(const Table& table, std::string_view key, const CsvTable& data) {
-  std::vector<std::string> names;
-  for (const CsvColumn& column : data.columns) names.push_back(column.name);
-  const std::string name = table.text(key);
-  if (const CsvColumn* found = data.find(name)) return *found;
-  table.fail(key, fmt::format("'{}' has no column '{}'", data.path.string(), name),
-             fmt::format("its columns are: {}", listed(names)), did_you_mean(name, names));
-}
-
-}  // namespace
-
 template <int N>
 Profile<N>::Profile(const Table& table, const GaugeContext<N>& context)
     : from_(read_point<N>(table, "from")),
@@ -41,8 +29,8 @@ void Profile<N>::read_profile(const Table& table) {
     table.fail("file", fmt::format("there is no file '{}'", file.string()), {},
                "names are relative to the case file's folder");
   const CsvTable data = read_csv(file);
-  const std::vector<double>& place = column_of(table, "place", data).values;
-  const std::vector<double>& value = column_of(table, "value", data).values;
+  const std::vector<double>& place = find_column(table, "place", data).values;
+  const std::vector<double>& value = find_column(table, "value", data).values;
   const double length = table.positive("length", unit::one, 1.0), scale = table.number("scale", 1.0);
   const std::vector<bool> chosen = chosen_rows(table, data);
   for (std::size_t k = 0; k < data.rows; ++k) {

@@ -12,6 +12,7 @@
 
 #include "undine/core/nearest.hpp"
 #include "undine/io/case/case_state.hpp"
+#include "undine/io/checksum.hpp"
 
 namespace undine {
 namespace {
@@ -273,5 +274,14 @@ void Document::finish() const {
 }
 
 std::vector<Document::Resolved> Document::resolved() const { return state_->resolved; }
+
+std::string Document::hash() const {
+  Hash64 hash;
+  for (const auto& [key, value] : resolved()) {
+    const std::string line = key + "=" + value + "\n";
+    hash.add_values(std::span<const char>(line));
+  }
+  return hash.text();
+}
 
 }  // namespace undine

@@ -37,6 +37,8 @@ class Document {
 
   /// Everything that was read, in the order of first reading: values in SI units with their unit, strings as they are.
   std::vector<Resolved> resolved() const;
+  /// A hash of all of it: equal where two documents ask for the same.
+  std::string hash() const;
 
  private:
   explicit Document(std::shared_ptr<CaseState> state) : state_(std::move(state)) {}

@@ -14,13 +14,6 @@ constexpr auto with_gradient(const auto& ab, const auto& gradient) {
   return other;
 }
 
-template <int N, class A, class B>
-constexpr auto product(const Vec<N, Vec<N, A>>& matrix, const Vec<N, B>& vector) {
-  Vec<N, decltype(matrix[0][0] * vector[0])> product;
-  for (int k = 0; k < N; ++k) product[k] = dot(matrix[k], vector);
-  return product;
-}
-
 /// A form whose sum becomes exact for linear fields by the target's own matrix. Not symmetric in the pair.
 template <class Form>
 struct Corrected {
@@ -35,7 +28,7 @@ struct Corrected {
   FieldSet chosen_reads() const { return form.chosen_reads() | Fields<moment>::set(); }
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    return form(a, b, with_gradient(ab, product(a.moment, ab.grad_w)));
+    return form(a, b, with_gradient(ab, times(a.moment, ab.grad_w)));
   }
 };
 
@@ -54,7 +47,7 @@ struct MeanCorrected {
   FieldSet chosen_reads() const { return form.chosen_reads() | Fields<moment>::set(); }
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
-    return form(a, b, with_gradient(ab, 0.5 * (product(a.moment, ab.grad_w) + product(b.moment, ab.grad_w))));
+    return form(a, b, with_gradient(ab, 0.5 * (times(a.moment, ab.grad_w) + times(b.moment, ab.grad_w))));
   }
 };
 

@@ -14,9 +14,12 @@ using namespace field;
 //   dv_a/dt = - sum_b m_b Pi_ab grad_a W_ab,   de_a/dt = 1/2 sum_b m_b Pi_ab (v_a - v_b).grad_a W_ab
 
 namespace detail {
-/// Force and heat of a given Pi_ab.
+/// Force and heat by the speed of approach, mu_ab <= 0:
+///   Pi_ab = f_ab (-alpha_ab c mu_ab + beta mu_ab^2)/rho
 template <class Adds>
-constexpr auto viscous_pair(const auto& pi_ab, const auto& a, const auto& b, const auto& ab) {
+constexpr auto viscous_pair(const auto& mu_ab, double beta, const auto& a, const auto& b, const auto& ab) {
+  const auto alpha_c = 0.25 * (a.alpha_v + b.alpha_v) * (a.c + b.c);
+  const auto pi_ab = 0.5 * (a.balsara + b.balsara) * (beta * sq(mu_ab) - alpha_c * mu_ab) * ab.inv_rho;
   return Adds::row(-b.m * pi_ab * ab.grad_w, 0.5 * b.m * pi_ab * dot(a.v - b.v, ab.grad_w));
 }
 }  // namespace detail
@@ -40,9 +43,7 @@ struct GasViscositySignal {
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     const auto w_ab = negative_part(dot(a.v - b.v, ab.dx)) * ab.r * ab.inv_r_sq;
-    const auto alpha_c = 0.25 * (a.alpha_v + b.alpha_v) * (a.c + b.c);
-    const auto pi_ab = 0.5 * (a.balsara + b.balsara) * (beta * sq(w_ab) - alpha_c * w_ab) * ab.inv_rho;
-    return detail::viscous_pair<adds>(pi_ab, a, b, ab);
+    return detail::viscous_pair<adds>(w_ab, beta, a, b, ab);
   }
 };
 
@@ -66,9 +67,7 @@ struct GasViscosityMonaghan {
 
   constexpr auto operator()(const auto& a, const auto& b, const auto& ab) const {
     const auto mu_ab = ab.h * negative_part(dot(a.v - b.v, ab.dx)) * ab.inv_r_sq;
-    const auto alpha_c = 0.25 * (a.alpha_v + b.alpha_v) * (a.c + b.c);
-    const auto pi_ab = 0.5 * (a.balsara + b.balsara) * (beta * sq(mu_ab) - alpha_c * mu_ab) * ab.inv_rho;
-    return detail::viscous_pair<adds>(pi_ab, a, b, ab);
+    return detail::viscous_pair<adds>(mu_ab, beta, a, b, ab);
   }
 };
 

@@ -6,12 +6,11 @@ namespace undine::terms {
 using namespace field;
 
 // The full Newtonian stress of a compressible fluid without bulk viscosity,
-//   tau = mu epsilon,  epsilon = L + L^T - 2/3 tr(L) 1,  L_ij = d v_j/d x_i  (Niedoba 2012, eq. 2.10 and 2.64; the
-//   trace
-// term is 2/3 div v). Force and heat take the weights of Niedoba's two pressure forms, with the masses m_b that the
-// print misses in the viscous sums. Heat is tau:L/rho, which is his mu/(2 rho) epsilon:epsilon: in 1-D and 2-D with the
-// normal components across, which a flow in fewer dimensions has too. Written in the pair it takes exactly what the
-// force takes from the motion.
+//   tau = mu epsilon,  epsilon = L + L^T - 2/3 tr(L) 1,  L_ij = d v_j/d x_i
+// (Niedoba 2012, eq. 2.10 and 2.64; the trace term is 2/3 div v). Force and heat take the weights of Niedoba's two
+// pressure forms, with the masses m_b that the print misses in the viscous sums. Heat is tau:L/rho, which is his
+// mu/(2 rho) epsilon:epsilon: in 1-D and 2-D with the normal components across, which a flow in fewer dimensions has
+// too. Written in the pair it takes exactly what the force takes from the motion.
 
 /// epsilon of a velocity gradient L (field `strain`); symmetric, so either order of indices will do.
 template <int N, class V>
@@ -24,14 +23,6 @@ constexpr Vec<N, Vec<N, V>> deviator(const Vec<N, Vec<N, V>>& L) {
     epsilon[i][i] = epsilon[i][i] - 2.0 / 3 * trace;
   }
   return epsilon;
-}
-
-/// tau . n of a symmetric tensor.
-template <int N, class T, class G>
-constexpr auto times(const Vec<N, Vec<N, T>>& tau, const Vec<N, G>& n) {
-  Vec<N, decltype(tau[0][0] * n[0])> t;
-  for (int i = 0; i < N; ++i) t[i] = dot(tau[i], n);
-  return t;
 }
 
 struct ViscousStressSum {
@@ -55,8 +46,7 @@ struct ViscousStressSymmetric {
       "stress_symmetric",
       "Newtonian stress in the weights of pressure form `symmetric`, with its heat; conserves energy",
       "dv_a/dt = sum_b m_b (tau_a/rho_a^2 + tau_b/rho_b^2) grad_a W_ab, de_a/dt = tau_a/rho_a^2 : sum_b m_b (v_b - "
-      "v_a) "
-      "grad_a W_ab",
+      "v_a) grad_a W_ab",
       "Niedoba (2012), eq. 2.63, 2.64 and 2.66 (masses added)"};
   using reads = Fields<m, rho, v, stress>;
   using adds = Fields<acc, de>;
