@@ -7,6 +7,7 @@
 RUNS is the folder that runs.py made.
 """
 
+import concurrent.futures
 import http.client
 import json
 import os
@@ -162,11 +163,14 @@ class Serving(unittest.TestCase):
         chance = random.Random(5)
         start = f"GET {self.server.path}frame.json?number=0&most=50 HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\nConnection: close\r\n\r\n".encode()
         wish = f"POST {self.server.path}control?wish=stop HTTP/1.1\r\nHost: 127.0.0.1:{self.server.port}\r\nConnection: close\r\n\r\n".encode()
+        requests = []
         for k in range(300):
             data = bytearray((start, wish, chance.randbytes(chance.randrange(1, 3000)))[k % 3])
             for _ in range(chance.randrange(1, 12)):
                 data[chance.randrange(len(data))] = chance.randrange(256)
-            self.server.raw(bytes(data) + b"\r\n\r\n", wait=0.3)
+            requests.append(bytes(data) + b"\r\n\r\n")
+        with concurrent.futures.ThreadPoolExecutor(10) as clients:  # most of them only wait for what does not come
+            list(clients.map(lambda data: self.server.raw(data, wait=0.3), requests))
         self.alive()
 
     def test_slow_and_many_clients_keep_nobody_waiting(self):

@@ -23,21 +23,22 @@ class ChoiceOf<Catalogue<Entries...>> {
   }
 
   void choose(int index) { index_ = index; }
-  int index() const { return index_; }
+  // constexpr, so that device code may call it too: of what it may not call a GPU compiler silently leaves nothing.
+  constexpr int index() const { return index_; }
   Info info() const { return List::info(index_); }
 
   /// The parameters of one alternative, chosen or not.
   template <class Entry>
-  Entry& get() {
+  constexpr Entry& get() {
     return std::get<Entry>(entries_);
   }
   template <class Entry>
-  const Entry& get() const {
+  constexpr const Entry& get() const {
     return std::get<Entry>(entries_);
   }
 
   /// The first alternative: for loops that are compiled for it alone.
-  const auto& first() const { return std::get<0>(entries_); }
+  constexpr const auto& first() const { return std::get<0>(entries_); }
 
   /// Calls f(entry) for the chosen alternative.
   template <class F>
