@@ -3,7 +3,7 @@
 
     full         the output folder is a small file system that fills up (where mounting one is not permitted: a limit on file sizes)
     read_only    the output folder cannot be written any more
-    vanish       a series is removed under the run's hands, and the whole folder"""
+    vanish       a series is removed under the run's hands, and the whole folder, also while a checkpoint is half written"""
 import glob
 import json
 import os
@@ -81,13 +81,16 @@ def full(program, folder, mounted):
     require(same, "with room again, --resume ends with the checksum of an undisturbed run")
 
 
-def interfere(program, folder, out, change):
-    """Starts a long run, changes something once it has written snapshots, and waits for its end."""
-    case = small_case(folder, end=20, snapshots=0.005, checkpoints=0.02)
+def interfere(program, folder, out, change, during="", checkpoints=0.02):
+    """Starts a long run, changes something once it has written snapshots (and, if asked, while a file with that ending is there), and waits
+    for its end."""
+    case = small_case(folder, end=20, snapshots=0.005, checkpoints=checkpoints)
     process = subprocess.Popen([program, "run", case, "--out", out, "--quiet"], env=ONE_THREAD, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
     while len(glob.glob(os.path.join(out, "*.vtkhdf"))) < 4 and process.poll() is None:
         time.sleep(0.01)
+    while during and not any(name.endswith(during) for name in os.listdir(out)) and process.poll() is None:
+        pass
     change()
     _, errors = process.communicate(timeout=60)
     return subprocess.CompletedProcess([], process.returncode, "", errors)
@@ -132,6 +135,12 @@ def vanish(program, folder, _):
     done = interfere(program, folder, out, lambda: os.rename(out, out + "_moved"))
     complains(done, "check that the folder exists" if "is gone" not in done.stderr else "is gone")
     require(sound(program, out + "_moved") > 3, "what was written before is whole")
+    # Ten tries, as the moment between two system calls is met by chance.
+    for number in range(10):
+        out = os.path.join(folder, f"half_{number}")
+        done = interfere(program, folder, out, lambda at=out: os.rename(at, at + "_moved"), during=".checkpoint.tmp", checkpoints=0.002)
+        complains(done, "check that the folder exists" if "is gone" not in done.stderr else "is gone")
+        require(sound(program, out + "_moved") > 3, "what was written before is whole")
 
 
 if __name__ == "__main__":

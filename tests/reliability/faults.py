@@ -6,6 +6,7 @@ The leading comments of a sick case say what the diagnosis must be:
     # cause: NAME       in `undine list causes`
     # alarm: A or B     what may stop the run"""
 import glob
+import math
 import os
 import re
 import sys
@@ -49,7 +50,9 @@ def fault(program, path, folder):
         return f"no good checkpoint from before the alarm: {good}"
     if not snapshots(os.path.join(out, "window")):
         return "no window of steps"
-    if "particle" in found and found["alarm"] != "residual" and not (found["terms"] and found["terms"][0]["acceleration"] >= found["terms"][-1]["acceleration"]):
+    sizes = [math.inf if term["acceleration"] is None else term["acceleration"] for term in found.get("terms", [])]
+    # A state that never got as far as its rates has no terms.
+    if "particle" in found and found["alarm"] != "residual" and (sizes != sorted(sizes, reverse=True) or not (sizes or found["step"] == 0)):
         return f"terms are not in order: {found['terms']}"
     return ""
 

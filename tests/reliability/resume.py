@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """resume.py UNDINE CHECK
 
-    same_bits    every scheme, wall, integrator and gauge: a run that was ended half-way and resumed on other threads has the checksum and the
-                 gauge files of one that was not
+    schemes, integrators, walls, gauges, terms
+                 every entry of the lists: a run that was ended half-way and resumed on other threads has the checksum and the series of one
+                 that was not. Each is run in every small case below that takes it, and there must be one.
     refused      damaged, foreign and unknown checkpoints are refused with the reason, and the one before is taken
     signals      SIGINT and SIGTERM write a checkpoint and end with exit code 130
     intervals    checkpoints by simulated and by wall-clock time; the last two are kept"""
@@ -15,57 +16,121 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import dataclass
 
-from common import ONE_THREAD, checkpoints, checksum, require, small_case, text, undine
+from common import ONE_THREAD, SMALL, checkpoints, checksum, require, small_case, text, undine
 
-GAUGES = """
-[[gauge]]
-name = "probe"
-type = "probe"
-at = [0.05, 0.05]
-[[gauge]]
-name = "height"
-type = "height"
-at = [0.05, 0]
-from = "0 m"
-to = "0.3 m"
-[[gauge]]
-name = "front"
-type = "front"
-[[gauge]]
-name = "extremes"
-type = "extremes"
-[[gauge]]
-name = "leak"
-type = "leak"
-[[gauge]]
-name = "wall_motion"
-type = "wall_motion"
-[[gauge]]
-name = "coincidence"
-type = "coincidence"
-[[gauge]]
-name = "mean_density"
-type = "mean_density"
-[[gauge]]
-name = "centre_of_mass"
-type = "centre_of_mass"
+
+@dataclass
+class Form:
+    """A kind of flow: a small case, how long it runs, and when its first half ends (s)."""
+    name: str
+    case: str
+    end: float
+    half: float
+
+
+LIQUID = SMALL.format(spacing=0.025, end=0.02, snapshots=0.02, energies=0.001, checkpoints=0.005, more="")
+
+CLOSED = """# A closed box under a moving lid.
+dimensions = 2
+spacing = 0.1
+expected_speed = "1 m/s"
+[scheme]
+name = "confined"
+[time]
+end = "0.1 s"
+[[fluid]]
+density = 1
+viscosity = "0.01 Pa s"
+shape = { type = "box", low = [0, 0], high = [1, 1] }
+[[wall]]
+name = "box"
+shape = { type = "box", low = [0, 0], high = [1, 1] }
+slide = ["if(y > 1, 1, 0)", 0]
+[output]
+snapshots = 0
+energies = "5 ms"
+checkpoints = "25 ms"
+report = false
 """
-FORCE = '[[gauge]]\nname = "wall_force"\ntype = "wall_force"\n'
-WITHOUT_FORCE = ("none", "elastic", "distance")
+
+GAS = """# A shock tube, short and wide; its gas shears, so that every viscosity has something to do.
+dimensions = 2
+spacing = 0.05
+[scheme]
+name = "gas"
+[scheme.wall]
+treatment = "ghost_free_slip"
+[scheme.smoothing]
+growth = 1.3
+[domain]
+low = [-0.5, -0.5]
+high = [1, 1]
+[time]
+end = "0.3 s"
+[[fluid]]
+name = "dense"
+density = 1
+viscosity = "1 mPa s"
+pressure = 1
+velocity = ["0.1 * sin(6 * y)", 0]
+shape = { type = "box", low = [0, 0], high = [0.25, 0.5] }
+eos = { form = "ideal_gas", gamma = 1.4 }
+[[fluid]]
+name = "thin"
+density = 0.25
+viscosity = "1 mPa s"
+pressure = 0.2
+shape = { type = "box", low = [0.25, 0], high = [0.5, 0.5] }
+eos = { form = "ideal_gas", gamma = 1.4 }
+[[wall]]
+name = "tank"
+shape = { type = "box", low = [0, 0], high = [0.5, 0.5] }
+[output]
+snapshots = 0
+energies = "15 ms"
+checkpoints = "75 ms"
+report = false
+"""
+
+FORMS = [Form("liquid", LIQUID, 0.02, 0.009), Form("closed", CLOSED, 0.1, 0.045), Form("gas", GAS, 0.3, 0.14)]
+
+# What a gauge cannot do without, where it needs more than its type; one text or another, as the cases differ.
+GAUGE_KEYS = {
+    "probe": ["at = [0.05, 0.05]"],
+    "height": ['at = [0.05, 0]\nfrom = "0 m"\nto = "0.3 m"'],
+    "profile": ['component = "y"\nfrom = [0.05, 0.05]\nto = [0.15, 0.05]\nfile = "profile.csv"\nplace = "s"\nvalue = "v"'],
+    "error": ['exact = "riemann"\norigin = [0.25, 0]\nparameters = { rho_left = 1, p_left = 1, rho_right = 0.25, p_right = 0.2, gamma = 1.4 }',
+              'exact = "hydrostatic_incompressible"\nparameters = { surface = 0.2 }'],
+}
 
 
-def halves(program, folder, label, words, more):
+def write(folder, form, label, more=""):
+    path = os.path.join(folder, f"{label}.toml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(form.case + more)
+    return path
+
+
+def takes(program, case, words):
+    return undine(program, "check", case, *words, expect=None).returncode == 0
+
+
+def halves(program, folder, form, label, words, more=""):
     """Runs the case whole on one thread, and in two parts, the first on two threads and the second on three."""
-    case = small_case(folder, end=0.02, spacing=0.025, energies=0.001, checkpoints=0.005, more=more, name=f"{label}.toml")
+    case = write(folder, form, label, more)
     whole, parts = os.path.join(folder, label + "_whole"), os.path.join(folder, label + "_parts")
     undine(program, "run", case, "--out", whole, "--quiet", "--threads", "1", *words)
-    undine(program, "run", case, "--out", parts, "--quiet", "--threads", "2", *words, "--set", "time.end=0.009 s")
+    undine(program, "run", case, "--out", parts, "--quiet", "--threads", "2", *words, "--set", f"time.end={form.half} s")
     undine(program, "run", case, "--out", parts, "--quiet", "--threads", "3", "--resume", *words)
-    sums = [checksum(program, checkpoints(out)[-1]) for out in (whole, parts)]
+    last = [checkpoints(out)[-1] for out in (whole, parts)]
+    sums = [checksum(program, file) for file in last]
     files = ["energies.csv", "steps.csv"] + [os.path.join("gauges", os.path.basename(f)) for f in glob.glob(os.path.join(whole, "gauges", "*.csv"))]
     other = [name for name in files if text(os.path.join(whole, name)) != text(os.path.join(parts, name))]
-    require(sums[0] == sums[1] and not other, f"{label}: {sums[0]} whole, {sums[1]} in parts, {len(files)} series, different: {other}")
+    step = int(os.path.basename(last[0])[5:17])
+    require(sums[0] == sums[1] and not other and step >= 3,
+            f"{label}: {sums[0]} whole, {sums[1]} in parts, {step} steps, {len(files)} series, different: {other}")
     for out in (whole, parts):
         shutil.rmtree(out)
 
@@ -74,23 +139,72 @@ def names(program, axis):
     return [entry["name"] for entry in json.loads(undine(program, "list", axis, "--json").stdout)]
 
 
-def same_bits(program, folder):
-    # Presets of other kinds of flow have cases of another form, and checks of their own.
-    halves(program, folder, "recommended", [], GAUGES)
-    halves(program, folder, "saalfeld", ["--set", "scheme.name=saalfeld", "--set", "time.step=0.2 ms", "--set",
-                                      "fluid[0].eos.form=tait_sound_speed", "--set", "scheme.wall.treatment=adami", "--set",
-                                      "scheme.wall.layers=0"], GAUGES)
-    for integrator in names(program, "integrators"):
-        halves(program, folder, integrator, ["--set", f"time.integrator={integrator}"], GAUGES + FORCE)
-    for wall in names(program, "walls"):
-        force = "" if wall in WITHOUT_FORCE else FORCE
-        halves(program, folder, wall, ["--set", f"scheme.wall.treatment={wall}", "--set", "watchdog.active=false"], GAUGES + force)
-    for form in ("summation", "normalised_summation"):
-        halves(program, folder, form, ["--set", f"scheme.density.form={form}", "--set", "scheme.wall.treatment=wall_particles", "--set",
-                                       "watchdog.active=false"], GAUGES)
-    for label, key in (("law", "scheme.smoothing.law=density"), ("xsph", "scheme.xsph.form=xsph"), ("antuono", "scheme.density_diffusion.form=antuono"),
-                       ("serial", "scheme.backend=serial"), ("reflect", "domain.on_escape=reflect")):
-        halves(program, folder, label, ["--set", key], GAUGES)
+def every(program, folder, axis, key, forms=None, more=(), words_of_list=None):
+    """Each word of a list as the value of a key, in every form that takes it."""
+    for word in words_of_list or names(program, axis):
+        words = [*more, "--set", f"{key}={word}"]
+        taking = [form for form in forms or FORMS if takes(program, write(folder, form, "asked"), words)]
+        require(bool(taking), f"{axis} {word}: a case takes it: {[form.name for form in taking]}")
+        for form in taking:
+            halves(program, folder, form, f"{axis}_{word}_{form.name}", words)
+
+
+# The watchdog is off where a form may do badly in a case that it is not made for: the bits must be the same nevertheless.
+OFF = ("--set", "watchdog.active=false")
+
+
+def schemes(program, folder):
+    every(program, folder, "schemes", "scheme.name", more=OFF)
+
+
+def integrators(program, folder):
+    every(program, folder, "integrators", "time.integrator", more=OFF)
+
+
+def walls(program, folder):
+    every(program, folder, "walls", "scheme.wall.treatment", more=OFF)
+    niedoba = ("--set", "scheme.name=niedoba", *OFF)
+    for word in ("ghost_free_slip", "repulsive"):
+        halves(program, folder, FORMS[2], f"niedoba_{word}", ["--set", f"scheme.wall.treatment={word}", *niedoba])
+
+
+def gauges(program, folder):
+    """All gauges that a case takes at once; each in at least one."""
+    with open(os.path.join(folder, "profile.csv"), "w", encoding="utf-8") as file:
+        file.write("s,v\n0,0\n0.5,1\n1,0\n")
+    taken = set()
+    for form in FORMS:
+        tables = []
+        for gauge in names(program, "gauges"):
+            for keys in GAUGE_KEYS.get(gauge, [""]):
+                table = f'[[gauge]]\nname = "{gauge}"\ntype = "{gauge}"\n{keys}\n'
+                if takes(program, write(folder, form, "asked", table), []):
+                    tables.append(table)
+                    taken.add(gauge)
+                    break
+        halves(program, folder, form, f"gauges_{form.name}", [], "".join(tables))
+    left = set(names(program, "gauges")) - taken
+    require(not left, f"every gauge is in a case; give the keys that these need in GAUGE_KEYS: {sorted(left)}")
+
+
+def terms(program, folder):
+    """What keeps a state of its own, or changes what is one: densities with every wall, laws of H, switches, dissipation."""
+    for density in ("summation", "normalised_summation"):
+        every(program, folder, "walls", "scheme.wall.treatment", more=("--set", f"scheme.density.form={density}", *OFF), forms=FORMS[:1])
+    gas = FORMS[2:]
+    every(program, folder, "density", "scheme.density.form", forms=gas, more=OFF)
+    every(program, folder, "gas_density", "scheme.density.form", forms=gas, more=OFF)
+    every(program, folder, "viscosity_switch", "scheme.viscosity_switch.form", forms=gas)
+    every(program, folder, "conductivity", "scheme.conductivity.form", forms=gas)
+    every(program, folder, "stress", "scheme.viscosity.form", forms=gas)
+    every(program, folder, "laws", "scheme.smoothing.law", forms=gas, more=("--set", "scheme.density.form=continuity", *OFF),
+          words_of_list=("constant", "density", "density_rate"))
+    every(program, folder, "shifting", "scheme.shifting.form", forms=FORMS[1:2])
+    every(program, folder, "density_diffusion", "scheme.density_diffusion.form", forms=FORMS[:2])
+    every(program, folder, "velocity_correction", "scheme.xsph.form", forms=FORMS[:1])
+    for form, key in (("liquid", "scheme.smoothing.law=density"), ("liquid", "scheme.backend=serial"), ("gas", "scheme.backend=serial"),
+                      ("gas", "scheme.precision=double"), ("liquid", "domain.on_escape=reflect"), ("gas", "domain.on_escape=remove")):
+        halves(program, folder, next(each for each in FORMS if each.name == form), f"{form}_{key.split('=')[0]}_{key.split('=')[1]}", ["--set", key])
 
 
 def refused(program, folder):
@@ -174,4 +288,5 @@ def intervals(program, folder):
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory(prefix="undine_resume_") as place:
-        {"same_bits": same_bits, "refused": refused, "signals": signals, "intervals": intervals}[sys.argv[2]](sys.argv[1], place)
+        checks = {check.__name__: check for check in (schemes, integrators, walls, gauges, terms, refused, signals, intervals)}
+        checks[sys.argv[2]](sys.argv[1], place)

@@ -39,10 +39,10 @@ case $kind in
     export TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1:second_deadlock_stack=1
     failed=0
     "${launcher[@]}" "$folder/tests/undine_unit" --gtest_brief=1 \
-      --gtest_filter='SameBits.*:Sweep.*:Neighbours.*:Ghosts.GiveTheSameBits:Walls.*SameBits*:Search.*:*Threads*' || failed=1
+      --gtest_filter='SameBits.*:Sweep.*:Neighbours.*:Ghosts.GiveTheSameBits:Walls.*SameBits*:Gas.*SameBits*:WatchGas.*:Search.*:*Threads*' || failed=1
     out=$(mktemp -d)
     trap 'rm -rf "$out"' EXIT
-    for name in dam_break_2d still_water_2d viscous/taylor_green viscous/poiseuille; do
+    for name in dam_break_2d still_water_2d viscous/taylor_green viscous/poiseuille gas/shock_tube gas/shock_tube_recommended; do
       echo "== cases/$name.toml"
       "${launcher[@]}" "$folder/undine" run "cases/$name.toml" --threads 4 --quiet --no-report --out "$out/$name" --set "time.end=1e-3 s" || failed=1
     done

@@ -34,21 +34,17 @@ struct CaseSetup {
   const FlowOptions<N>& options() const { return const_cast<CaseSetup&>(*this).options(); }
 };
 
-/// The flow of that scheme. With the `memory` of an earlier run it goes on with the same bits.
+/// The flow of that scheme, before its `start`.
 template <int N>
-std::unique_ptr<Flow<N>> make_flow(Store<N> store, const Domain<N>& domain, const SchemeOptions<N>& options,
-                                   const std::vector<double>& memory = {});
+std::unique_ptr<Flow<N>> make_flow(Store<N> store, const Domain<N>& domain, const SchemeOptions<N>& options);
 
 /// Reads a case of N dimensions. Throws InputError with file, line and column.
 template <int N>
 CaseSetup<N> read_case(const Table& root);
 
-extern template std::unique_ptr<Flow<1>> make_flow<1>(Store<1>, const Domain<1>&, const SchemeOptions<1>&,
-                                                      const std::vector<double>&);
-extern template std::unique_ptr<Flow<2>> make_flow<2>(Store<2>, const Domain<2>&, const SchemeOptions<2>&,
-                                                      const std::vector<double>&);
-extern template std::unique_ptr<Flow<3>> make_flow<3>(Store<3>, const Domain<3>&, const SchemeOptions<3>&,
-                                                      const std::vector<double>&);
+extern template std::unique_ptr<Flow<1>> make_flow<1>(Store<1>, const Domain<1>&, const SchemeOptions<1>&);
+extern template std::unique_ptr<Flow<2>> make_flow<2>(Store<2>, const Domain<2>&, const SchemeOptions<2>&);
+extern template std::unique_ptr<Flow<3>> make_flow<3>(Store<3>, const Domain<3>&, const SchemeOptions<3>&);
 
 extern template CaseSetup<1> read_case<1>(const Table&);
 extern template CaseSetup<2> read_case<2>(const Table&);

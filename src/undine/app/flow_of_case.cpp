@@ -6,12 +6,12 @@
 namespace undine {
 
 template <int N>
-std::unique_ptr<Flow<N>> start_flow(CaseSetup<N>& setup, const OwnedCheckpoint* checkpoint) {
-  auto flow = checkpoint ? make_flow<N>(store_from<N>(checkpoint->frame), setup.domain, setup.scheme,
-                                        checkpoint->state.lists.at("memory"))
-                         : make_flow<N>(std::move(setup.store), setup.domain, setup.scheme);
+std::unique_ptr<Flow<N>> flow_of_case(CaseSetup<N>& setup, const OwnedCheckpoint* checkpoint) {
+  auto flow =
+      make_flow<N>(checkpoint ? store_from<N>(checkpoint->frame) : std::move(setup.store), setup.domain, setup.scheme);
   flow->set_potential_origin(setup.potential_origin);
   flow->step_control().tolerance = setup.choice.tolerance;
+  if (checkpoint) flow->start(checkpoint->state.lists.at("memory"));
   return flow;
 }
 
@@ -29,9 +29,9 @@ void take_step(Flow<N>& flow, const SchemeChoice& choice, double dt) {
   Integrators::visit(Integrators::index_of(choice.integrator), [&]<class I>(I) { I::step(flow, dt); });
 }
 
-template std::unique_ptr<Flow<1>> start_flow(CaseSetup<1>&, const OwnedCheckpoint*);
-template std::unique_ptr<Flow<2>> start_flow(CaseSetup<2>&, const OwnedCheckpoint*);
-template std::unique_ptr<Flow<3>> start_flow(CaseSetup<3>&, const OwnedCheckpoint*);
+template std::unique_ptr<Flow<1>> flow_of_case(CaseSetup<1>&, const OwnedCheckpoint*);
+template std::unique_ptr<Flow<2>> flow_of_case(CaseSetup<2>&, const OwnedCheckpoint*);
+template std::unique_ptr<Flow<3>> flow_of_case(CaseSetup<3>&, const OwnedCheckpoint*);
 template Step next_step(Flow<1>&, const SchemeChoice&);
 template Step next_step(Flow<2>&, const SchemeChoice&);
 template Step next_step(Flow<3>&, const SchemeChoice&);

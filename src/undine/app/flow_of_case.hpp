@@ -7,9 +7,10 @@
 
 namespace undine {
 
-/// The flow that a case starts, which takes the set-up's particles; or the one that a checkpoint left.
+/// The flow of a case before its `start`, which takes the set-up's particles; or the one that a checkpoint left, which
+/// goes on with the same bits.
 template <int N>
-std::unique_ptr<Flow<N>> start_flow(CaseSetup<N>& setup, const OwnedCheckpoint* checkpoint);
+std::unique_ptr<Flow<N>> flow_of_case(CaseSetup<N>& setup, const OwnedCheckpoint* checkpoint);
 
 /// What the limits allow, or less where the error of the last step asks for it.
 template <int N>

@@ -49,11 +49,14 @@ class Run {
   void describe() const { talk_.describe(); }
 
   int run() {
-    open();
+    const bool resumed = open();
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
-    record("running");
     try {
+      if (!resumed) begin();
+      record("running");
+      talk_.plan(*flow_);
+      watch_->begin(*flow_);
       advance();
     } catch (const RunError& error) {
       go_bad(error);
@@ -70,8 +73,8 @@ class Run {
   }
 
  private:
-  /// From the case or from a checkpoint to a flow, and files that wait for what comes.
-  void open() {
+  /// From the case or from a checkpoint to a flow, and files that wait for what comes. Whether it was a checkpoint.
+  bool open() {
     std::optional<FoundCheckpoint> found;
     const bool unbegun = options_.resume && checkpoints_->began_without();
     if (options_.resume && !unbegun) found = checkpoints_->read_newest();
@@ -84,8 +87,7 @@ class Run {
     if (found) say_refused(*found);
     talk_.describe();
     watch_.emplace(limits_, watch_subject(setup_), setup_.options().materials);
-    flow_ = start_flow(setup_, found ? &found->checkpoint : nullptr);
-    talk_.plan(*flow_);
+    flow_ = flow_of_case(setup_, found ? &found->checkpoint : nullptr);
 
     const double resumed_at = found ? flow_->time() : -1;
     const auto list = output_.folder / "particles.vtkhdf.series";
@@ -99,13 +101,20 @@ class Run {
       pace_.step = found->checkpoint.frame.step;
     } else {
       gauges_.create(output_.folder);
-      const Energies e = flow_->energies();
-      energies_->set_start(e.total(), e.potential);
     }
     before_ = resumed_at;
     pace_.from = flow_->time();
     pace_.end = setup_.choice.end;
-    watch_->begin(*flow_);
+    return found.has_value();
+  }
+
+  /// The first rates.
+  void begin() {
+    moment_ = Moment::first_rates;
+    flow_->start();
+    moment_ = Moment::chosen_step;
+    const Energies e = flow_->energies();
+    energies_->set_start(e.total(), e.potential);
   }
 
   void say_refused(const FoundCheckpoint& found) const {
@@ -189,18 +198,18 @@ class Run {
   /// What happened, why, and what to change: to the user, into diagnosis.txt and into run.json.
   [[noreturn]] void go_bad(const RunError& error) {
     const auto* alarm = dynamic_cast<const AlarmError*>(&error);
-    const auto hit = alarm ? std::optional(alarm->hit()) : hit_of_state(*flow_);
+    const auto hit = alarm ? std::optional(alarm->hit()) : hit_of(error, *flow_);
     if (!hit) {  // the error says all that there is to say
       record("went bad");
       report();
       throw;
     }
-    if (talk_.normal()) fmt::print(stderr, "\n{}\nlooking for the cause, from the last checkpoint on\n", error.what());
+    if (talk_.normal()) fmt::print(stderr, "\n{}\nlooking for the cause\n", error.what());
     const AlarmedRun alarmed{.hit = *hit,
                              .time = flow_->time(),
                              .dt = step_.dt,
                              .step = pace_.step + (moment_ == Moment::within_step ? 1 : 0),
-                             .last_good = pace_.step - (moment_ == Moment::after_step ? 1 : 0)};
+                             .last_good = pace_.step - (knows_state_is_bad() ? 1 : 0)};
     const Examined found =
         examine(alarmed, *flow_, document_, output_.folder, *checkpoints_, [] { return interrupted.load(); });
     const std::string text = diagnosis_text(found.diagnosis, found.evidence);
@@ -256,7 +265,8 @@ class Run {
   }
 
   /// Where in a step the run is, for whoever asks which state was the last good one.
-  enum class Moment { chosen_step, within_step, after_step };
+  enum class Moment { first_rates, chosen_step, within_step, after_step };
+  bool knows_state_is_bad() const { return moment_ == Moment::first_rates || moment_ == Moment::after_step; }
 
   Document& document_;
   const RunOptions& options_;

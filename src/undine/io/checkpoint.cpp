@@ -46,10 +46,12 @@ struct Content {
   std::string hash;        // of what follows
 };
 
-Content read_content(const fs::path& path) {
+/// `fail` says what it means that the file cannot be read.
+template <class Fail>
+Content read_content(const fs::path& path, Fail fail) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) refuse(path, std::generic_category().message(errno));
+  if (!stream) fail(std::generic_category().message(errno));
   Content content;
   content.header.resize(header_size);
   stream.read(content.header.data(), header_size);
@@ -63,26 +65,30 @@ Content read_content(const fs::path& path) {
     hash.add_values(std::span<const char>(block).first(count));
     content.size += count;
   }
-  if (stream.bad()) refuse(path, "reading it failed part of the way");
+  if (stream.bad()) fail("reading it failed part of the way");
   content.hash = hash.text();
   return content;
 }
 
+/// Puts the header before what was written. A file that is gone by then could not be written: nobody is to blame for
+/// what they asked to read.
 void seal(const fs::path& path) {
-  const Content content = read_content(path);
+  const auto fail = [&](const std::string& why) {
+    throw Error({.what = fmt::format("cannot write '{}'", path.string()),
+                 .why = why,
+                 .fix = "check that the folder exists and that you may write to it, and that the disk is not full"});
+  };
+  const Content content = read_content(path, fail);
   const std::string text = header(content.size, content.hash);
   errno = 0;
   std::fstream stream(path, std::ios::binary | std::ios::in | std::ios::out);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
-  if (!stream)
-    throw Error({.what = fmt::format("cannot write '{}'", path.string()),
-                 .why = std::generic_category().message(errno),
-                 .fix = "check that the folder exists and that you may write to it, and that the disk is not full"});
+  if (!stream) fail(std::generic_category().message(errno));
 }
 
 void verify(const fs::path& path) {
-  const Content content = read_content(path);
+  const Content content = read_content(path, [&](const std::string& why) { refuse(path, why); });
   if (content.size == 0) refuse(path, "it is empty");
   const std::string_view found(content.header);
   if (!found.starts_with(magic)) {

@@ -7,6 +7,7 @@
 #include "undine/core/error.hpp"
 #include "undine/schemes/flow_stages_impl.hpp"
 #include "undine/schemes/particle_rules.hpp"
+#include "undine/schemes/state_error.hpp"
 
 namespace undine {
 
@@ -43,8 +44,10 @@ void Flow<N>::add_summation_stages(DensityForm form, bool walls) {
   const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
   Resources reads(Group::fluid, Fields<m, rho>::set() | place());
   if (walls) reads.add(Group::wall, Fields<m>::set() | place());
-  // Ghosts too have the density of before, and take the new one afterwards.
-  if (walls && !ghosts_) reads.add(Group::wall, Fields<rho>::set());
+  // Walls that take their density from the fluid's, ghosts among them, have that of before too.
+  using walls::WallDensity;
+  const bool own = common_->wall_density == WallDensity::evolved || common_->wall_density == WallDensity::modified;
+  if (walls && own) reads.add(Group::wall, Fields<rho>::set());
   plan_.add({"normalised density", reads, touched, [this] {
                run(summation_);
                run(shepard_);
@@ -133,16 +136,25 @@ void Flow<N>::refresh_lists() {
 template <int N>
 void Flow<N>::check_support() const {
   const double reach = support_now_ * (1 + common_->neighbours.skin);
+  const auto widest = [&] {
+    const auto H = store_.template get<h>();
+    const IndexRange fluid = store_.range(Group::fluid);
+    if (H.empty() || fluid.size() == 0) return std::int64_t{-1};
+    const auto own = H.subspan(fluid.begin, fluid.size());
+    return store_.ids()[fluid.begin + static_cast<std::size_t>(std::ranges::max_element(own) - own.begin())];
+  };
   for (int k = 0; k < N; ++k)
     if (domain_.periodic[k] && domain_.length(k) < 2 * reach)
-      throw RunError(
+      throw StateError(
+          Trouble::support, widest(),
           {.what = fmt::format("H has grown to {:.4g} m at t = {:.6g} s, too large for the period of {:.4g} m",
                                support_now_, time_, domain_.length(k)),
            .why = "a particle would see another one and its image",
            .fix = "widen the domain, or take a constant H (scheme.smoothing.law)"});
   const double mirrored = std::max(common_->mirrored_support, common_->support.uniform);
   if (ghosts_ && support_now_ > mirrored * (1 + 1e-9))
-    throw RunError(
+    throw StateError(
+        Trouble::support, widest(),
         {.what = fmt::format("H has grown to {:.4g} m at t = {:.6g} s, from {:.4g} m", support_now_, time_,
                              common_->support.uniform),
          .why = fmt::format("walls with ghosts were checked for gaps and thickness with H up to {:.4g} m", mirrored),
@@ -166,7 +178,8 @@ void Flow<N>::check_particles() {
     }
     std::string place;
     for (int k = 0; k < N; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", at[i][k]);
-    throw RunError(
+    throw StateError(
+        finite ? Trouble::outside : Trouble::not_finite, store_.ids()[i],
         {.what = fmt::format("particle {} left the domain at t = {:.6g} s: x = ({}) m", store_.ids()[i], time_, place),
          .why = "it passed a wall, or was thrown out by a pressure that grew beyond bounds",
          .fix = "take a smaller time step, a larger speed of sound, a tight wall ('combined') or a larger [domain]"});
@@ -190,7 +203,8 @@ void Flow<N>::evaluate() {
   const IndexRange fluid = store_.range(Group::fluid);
   for (std::size_t i = fluid.begin; i < fluid.end; ++i)
     if (!std::isfinite(norm_sq(a[i])))
-      throw RunError(
+      throw StateError(
+          Trouble::not_finite, store_.ids()[i],
           {.what = fmt::format("the acceleration of particle {} is not finite at t = {:.6g} s", store_.ids()[i], time_),
            .why = fmt::format("rho = {:.6g} kg/m^3, p = {:.6g} Pa", store_.template get<rho>()[i],
                               store_.template get<p>()[i]),

@@ -17,6 +17,11 @@
 
 namespace undine {
 
+/// Says of a flow that its rates are to be evaluated later, by `start`: who would look at what that finds wrong then
+/// has the flow to look at.
+struct Unstarted {};
+inline constexpr Unstarted unstarted;
+
 /// What flows of any kind have: particles with their lists and plan, walls that move, and the moves that integrators
 /// are made of (integrators/euler.hpp lists them). A scheme says which stages give the rates, what else is kicked, and
 /// where the energy goes. Moves throw RunError when a value is no longer finite or a particle left the domain.
@@ -26,6 +31,10 @@ class Flow {
   virtual ~Flow() = default;
   Flow(const Flow&) = delete;
   Flow& operator=(const Flow&) = delete;
+
+  /// Evaluates the rates of the particles as set up, or goes on from the `memory` of an earlier run. Once, before any
+  /// move; constructors that are not told `unstarted` have done it.
+  void start(const std::vector<double>& memory = {});
 
   // Moves.
   void drift(double dt);
@@ -95,8 +104,6 @@ class Flow {
   };
 
   Flow(Store<N> store, const Domain<N>& domain, std::shared_ptr<const FlowOptions<N>> options);
-  /// The end of a scheme's construction, its plan being made: evaluates the rates, or goes on from `memory`.
-  void start(const std::vector<double>& memory);
 
   // What a scheme says.
   /// Updates before the lists are looked at, which must reach as far as the largest support.

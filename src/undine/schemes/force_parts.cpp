@@ -1,69 +1,132 @@
 #include "undine/schemes/force_parts.hpp"
 
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "undine/schemes/gas.hpp"
 #include "undine/schemes/neighbourhood.hpp"
+#include "undine/schemes/weakly_compressible.hpp"
 
 namespace undine {
+namespace {
 
 using namespace field;
 
-template <int N>
-std::vector<ForcePart<N>> force_parts(const WeaklyCompressible<N>& flow, std::size_t particle) {
-  using Sweeps = WeaklyCompressibleSweeps<N>;
-  const WeaklyCompressibleOptions<N>& options = flow.options();
-  const Vec<N> place = flow.store().template get<x>()[particle];
-  if (!std::isfinite(norm_sq(place))) return {};
-  Neighbourhood<N> near(flow.store(), flow.neighbours(), flow.domain(), particle);
-  Support support = options.support;
-  support.per_particle = options.supports_vary();
-  const SweepContext<N> run{near.store, near.lists,      flow.domain(),
-                            support,    options.kernels, options.materials.front().rho_0};
-  const Backend serial{BackendKind::serial, PairPrecision::double_precision};
-  std::vector<ForcePart<N>> parts;
-  // One use of a sweep from one group.
-  const auto alone = [&]<std::size_t k, class Target>(auto& sweep, std::string_view term, Group source) {
-    auto& use = sweep.template use<k>();
-    use.active = true;
-    use.sources = {true, true};
-    sweep.take_from({source == Group::fluid, source == Group::wall});
-    sweep.run(run, serial);
-    use.active = false;
-    parts.push_back({fmt::format("{} ({})", term, source == Group::fluid ? "fluid" : "wall"),
-                     near.store.template get<Target>()[near.centre]});
-  };
+// What the uses of the sweeps are called, in their order.
+constexpr std::array<std::string_view, 7> in_gas_force{
+    "pressure", "work", "continuity", "artificial viscosity", "conductivity", "viscosity", "signal speed"};
+constexpr std::array<std::string_view, 8> in_consistent_force{
+    "approach speed", "pressure",          "continuity", "artificial viscosity",
+    "diffusion",      "shifted transport", "viscosity",  "wall friction"};
+constexpr std::array<std::string_view, 2> in_push{"repulsion", "no-slip friction"};
 
+/// The neighbourhood of one particle, on which terms run alone.
+template <int N>
+class Apart {
+ public:
+  Apart(const Flow<N>& flow, std::size_t particle)
+      : flow_(flow), near_(flow.store(), flow.neighbours(), flow.domain(), particle) {}
+
+  /// What use k of a sweep adds to Target, from each group that both it and the sweep take from.
+  template <std::size_t k, class Target, class Sweep>
+  void take(Sweep sweep, std::string_view term, const std::array<bool, group_count>& groups) {
+    std::apply([](auto&... use) { ((use.active = false), ...); }, sweep.uses());
+    sweep.template use<k>().active = true;
+    if (!sweep.adds()[static_cast<std::size_t>(Target::id)]) return;
+    for (const Group source : all_groups) {
+      if (!groups[static_cast<std::size_t>(source)]) continue;
+      sweep.take_from({source == Group::fluid, source == Group::wall});
+      sweep.run(context(), {BackendKind::serial, PairPrecision::double_precision});
+      parts_.push_back({fmt::format("{} ({})", term, source == Group::fluid ? "fluid" : "wall"),
+                        near_.store.template get<Target>()[near_.centre]});
+    }
+  }
+
+  /// The same of all uses that act, as the flow has set them. `names`: of the uses, in their order.
+  template <class Target, std::size_t count, class... Uses>
+  void take_all(const PairSweep<N, Uses...>& sweep, const std::array<std::string_view, count>& names) {
+    static_assert(count == sizeof...(Uses));
+    [&]<std::size_t... k>(std::index_sequence<k...>) {
+      const auto one = [&]<std::size_t which>(std::integral_constant<std::size_t, which>) {
+        const auto& use = std::get<which>(sweep.uses());
+        if (use.active) take<which, Target>(sweep, names[which], use.sources);
+      };
+      (one(std::integral_constant<std::size_t, k>{}), ...);
+    }
+    (std::index_sequence_for<Uses...>{});
+  }
+
+  std::vector<ForcePart<N>> finish() {
+    const auto& options = flow_.options();
+    const Vec<N> place = near_.store.template get<x>()[near_.centre];
+    if (norm_sq(options.gravity) > 0) parts_.push_back({"gravity", options.gravity});
+    if (options.body_force) parts_.push_back({"body force", options.body_force(place, flow_.time())});
+    return std::move(parts_);
+  }
+
+ private:
+  SweepContext<N> context() {
+    const FlowOptions<N>& options = flow_.options();
+    Support support = options.support;
+    support.per_particle = options.supports_vary();
+    return {near_.store, near_.lists, flow_.domain(), support, options.kernels, options.materials.front().rho_0};
+  }
+
+  const Flow<N>& flow_;
+  Neighbourhood<N> near_;
+  std::vector<ForcePart<N>> parts_;
+};
+
+template <int N>
+void take_apart(Apart<N>& apart, const Gas<N>& flow) {
+  apart.template take_all<acc>(flow.force_sweep(), in_gas_force);
+  if (flow.options().repulsion) apart.template take_all<acc_wall>(flow.push_sweep(), in_push);
+}
+
+/// Terms that act in every run of a liquid cannot be told to rest: they run in the sweep of forces on walls, where each
+/// can.
+template <int N>
+void take_apart(Apart<N>& apart, const WeaklyCompressible<N>& flow) {
+  const auto& options = flow.options();
   const bool walls = options.wall_density != walls::WallDensity::none;
   const bool holds = options.wall_no_slip && options.viscosity;
-  typename Sweeps::WallForce force{"force part", Group::fluid};
-  force.template use<0>() = {options.pressure, false, {}, {}};
-  force.template use<1>() = {options.viscosity.value_or(OneOf<terms::ViscosityForms>{}), false, {}, {}};
-  force.template use<2>() = {options.artificial.value_or(OneOf<terms::ArtificialViscosities>{}), false, {}, {}};
+  if (options.consistent()) {
+    apart.template take_all<acc>(flow.consistent_force_sweep(), in_consistent_force);
+    return;
+  }
+  typename WeaklyCompressibleSweeps<N>::WallForce force{"force part", Group::fluid};
+  force.template use<0>().term = options.pressure;
+  if (options.viscosity) force.template use<1>().term = *options.viscosity;
+  if (options.artificial) force.template use<2>().term = *options.artificial;
   for (const Group source : all_groups) {
     const bool wall = source == Group::wall;
     if (wall && !walls) continue;
     const bool drags = !wall || options.wall_friction;
-    alone.template operator()<0, acc>(force, "pressure", source);
-    if (options.viscosity && drags && !(wall && holds)) alone.template operator()<1, acc>(force, "viscosity", source);
-    if (options.artificial && drags) alone.template operator()<2, acc>(force, "artificial viscosity", source);
+    const std::array<bool, group_count> from{!wall, wall};
+    apart.template take<0, acc>(force, "pressure", from);
+    if (options.viscosity && drags && !(wall && holds)) apart.template take<1, acc>(force, "viscosity", from);
+    if (options.artificial && drags) apart.template take<2, acc>(force, "artificial viscosity", from);
   }
-  typename Sweeps::WallPush push{"push part", Group::fluid};
-  push.template use<0>() = {options.repulsion.value_or(terms::Repulsion{}), false, {}, {}};
-  OneOf<terms::NoSlipForms> no_slip;
-  if (holds) no_slip.choose(options.viscosity->index());
-  push.template use<1>() = {no_slip, false, {}, {}};
-  if (options.repulsion) alone.template operator()<0, acc_wall>(push, "repulsion", Group::wall);
-  if (holds) alone.template operator()<1, acc_wall>(push, "no-slip friction", Group::wall);
-
-  if (norm_sq(options.gravity) > 0) parts.push_back({"gravity", options.gravity});
-  if (options.body_force) parts.push_back({"body force", options.body_force(place, flow.time())});
-  return parts;
+  if (options.repulsion || holds) apart.template take_all<acc_wall>(flow.push_sweep(), in_push);
 }
 
-template std::vector<ForcePart<1>> force_parts(const WeaklyCompressible<1>&, std::size_t);
-template std::vector<ForcePart<2>> force_parts(const WeaklyCompressible<2>&, std::size_t);
-template std::vector<ForcePart<3>> force_parts(const WeaklyCompressible<3>&, std::size_t);
+}  // namespace
+
+template <int N>
+std::vector<ForcePart<N>> force_parts(const Flow<N>& flow, std::size_t particle) {
+  if (!std::isfinite(norm_sq(flow.store().template get<x>()[particle]))) return {};
+  Apart<N> apart(flow, particle);
+  if (const auto* gas = dynamic_cast<const Gas<N>*>(&flow)) take_apart(apart, *gas);
+  if (const auto* liquid = dynamic_cast<const WeaklyCompressible<N>*>(&flow)) take_apart(apart, *liquid);
+  return apart.finish();
+}
+
+template std::vector<ForcePart<1>> force_parts(const Flow<1>&, std::size_t);
+template std::vector<ForcePart<2>> force_parts(const Flow<2>&, std::size_t);
+template std::vector<ForcePart<3>> force_parts(const Flow<3>&, std::size_t);
 
 }  // namespace undine

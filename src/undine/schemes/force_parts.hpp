@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "undine/schemes/weakly_compressible.hpp"
+#include "undine/schemes/flow.hpp"
 
 namespace undine {
 
@@ -14,8 +14,9 @@ struct ForcePart {
 };
 
 /// The acceleration of one particle of fluid (index in the store), term by term: each use of the force sweep runs alone
-/// on a store of the particle and its neighbours, one pair at a time and in double. Changes nothing in the flow.
+/// on a store of the particle and its neighbours, one pair at a time and in double. Changes nothing in the flow, whose
+/// lists must exist. Empty where the particle has no place.
 template <int N>
-std::vector<ForcePart<N>> force_parts(const WeaklyCompressible<N>& flow, std::size_t particle);
+std::vector<ForcePart<N>> force_parts(const Flow<N>& flow, std::size_t particle);
 
 }  // namespace undine

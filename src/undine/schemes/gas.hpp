@@ -20,6 +20,8 @@ class Gas : public Flow<N> {
   /// Takes the particles as set up (x, v, rho, e, m, h, alpha_v, and rho_0 or mu where something asks for them) and
   /// evaluates their rates. With the `memory` of an earlier run it goes on with the same bits.
   Gas(Store<N> store, const Domain<N>& domain, Options options, const std::vector<double>& memory = {});
+  /// The same without rates: `start` is still to come.
+  Gas(Store<N> store, const Domain<N>& domain, Options options, Unstarted);
 
   void kick(double dt) override;
   void compress(double dt) override;
@@ -35,6 +37,9 @@ class Gas : public Flow<N> {
   void evaluate_wall_forces() override;
 
   const Options& options() const { return options_; }
+  /// The sweeps that accelerate the gas, as they are set.
+  const typename GasSweeps<N>::Force& force_sweep() const { return force_; }
+  const typename WeaklyCompressibleSweeps<N>::WallPush& push_sweep() const { return push_; }
 
  private:
   using Flow<N>::store_;
@@ -46,8 +51,7 @@ class Gas : public Flow<N> {
   using Sweeps = GasSweeps<N>;
   using Shared = WeaklyCompressibleSweeps<N>;
 
-  Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options,
-      const std::vector<double>& memory);
+  Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options);
   void prepare() override;
   std::vector<double*> remembered() override;
   std::vector<typename Flow<N>::Evolved> evolved() const override;

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "undine/core/error.hpp"
 #include "undine/schemes/gas.hpp"
 #include "undine/schemes/gas_rules.hpp"
 #include "undine/schemes/particle_rules.hpp"
+#include "undine/schemes/state_error.hpp"
 #include "undine/terms/density/grad_h.hpp"
 
 namespace undine {
@@ -20,16 +20,20 @@ using walls::WallDensity;
 
 template <int N>
 Gas<N>::Gas(Store<N> store, const Domain<N>& domain, Options options, const std::vector<double>& memory)
-    : Gas(std::move(store), domain, std::make_shared<const Options>(std::move(options)), memory) {}
+    : Gas(std::move(store), domain, std::move(options), unstarted) {
+  this->start(memory);
+}
 
 template <int N>
-Gas<N>::Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options,
-            const std::vector<double>& memory)
+Gas<N>::Gas(Store<N> store, const Domain<N>& domain, Options options, Unstarted)
+    : Gas(std::move(store), domain, std::make_shared<const Options>(std::move(options))) {}
+
+template <int N>
+Gas<N>::Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options)
     : Flow<N>(std::move(store), domain, options), options_(*options) {
   mirrored_ = ghosts_.has_value();
   configure();
   make_plan();
-  this->start(memory);
 }
 
 /// Tells each sweep which of its terms are in use, and between which groups.
@@ -197,10 +201,11 @@ void Gas<N>::no_support_found() const {
   std::size_t worst = fluid.begin;
   for (std::size_t i = fluid.begin; i < fluid.end; ++i)
     if (!(mismatch(i) <= mismatch(worst))) worst = i;
-  throw RunError({.what = fmt::format("no support radius fits the density of particle {} at t = {:.6g} s",
-                                      store_.ids()[worst], time_),
-                  .why = fmt::format("after 100 rounds H = {:.6g} m, rho = {:.6g} kg/m^3", H[worst], sum[worst]),
-                  .fix = "look for particles that coincide, or take scheme.smoothing.law = \"density\""});
+  throw StateError(Trouble::support, store_.ids()[worst],
+                   {.what = fmt::format("no support radius fits the density of particle {} at t = {:.6g} s",
+                                        store_.ids()[worst], time_),
+                    .why = fmt::format("after 100 rounds H = {:.6g} m, rho = {:.6g} kg/m^3", H[worst], sum[worst]),
+                    .fix = "look for particles that coincide, or take scheme.smoothing.law = \"density\""});
 }
 
 /// Updates that the lists must see, after a look at what the moves left.
@@ -220,7 +225,9 @@ void Gas<N>::check_state() const {
   std::size_t i = fluid.begin;
   while (!bad(i)) ++i;
   const bool cold = !(energy[i] >= 0);
-  throw RunError(
+  const bool finite = std::isfinite(energy[i]) && std::isfinite(density[i]);
+  throw StateError(
+      finite ? Trouble::energy : Trouble::not_finite, store_.ids()[i],
       {.what = fmt::format("the {} of particle {} is {:.4g} {} at t = {:.6g} s", cold ? "internal energy" : "density",
                            store_.ids()[i], cold ? energy[i] : density[i], cold ? "J/kg" : "kg/m^3", time_),
        .why = fmt::format("it lost more than it had in one step; rho = {:.4g} kg/m^3, e = {:.4g} J/kg", density[i],

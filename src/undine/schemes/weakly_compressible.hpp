@@ -19,6 +19,8 @@ class WeaklyCompressible : public Flow<N> {
   /// `memory` of an earlier run it goes on with the same bits: the store must then be as it was, every field in its
   /// order.
   WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options, const std::vector<double>& memory = {});
+  /// The same without rates: `start` is still to come.
+  WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options, Unstarted);
 
   void compress(double dt) override;
   void continuity() override;
@@ -29,6 +31,10 @@ class WeaklyCompressible : public Flow<N> {
   void evaluate_wall_forces() override;
 
   const Options& options() const { return options_; }
+  /// Sweeps that accelerate the fluid, as they are set: where gradients are corrected or particles shifted, and at
+  /// walls that push.
+  const typename ConsistentSweeps<N>::Force& consistent_force_sweep() const { return consistent_force_; }
+  const typename WeaklyCompressibleSweeps<N>::WallPush& push_sweep() const { return push_; }
 
  private:
   using Flow<N>::store_;
@@ -42,8 +48,7 @@ class WeaklyCompressible : public Flow<N> {
   using Sweeps = WeaklyCompressibleSweeps<N>;
   using Consistent = ConsistentSweeps<N>;
 
-  WeaklyCompressible(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options,
-                     const std::vector<double>& memory);
+  WeaklyCompressible(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options);
   void prepare() override;
   std::span<const Vec<N>> drift_correction() const override;
   std::vector<double*> remembered() override;

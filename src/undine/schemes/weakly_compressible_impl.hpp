@@ -16,15 +16,20 @@ using walls::WallDensity;
 template <int N>
 WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options,
                                           const std::vector<double>& memory)
-    : WeaklyCompressible(std::move(store), domain, std::make_shared<const Options>(std::move(options)), memory) {}
+    : WeaklyCompressible(std::move(store), domain, std::move(options), unstarted) {
+  this->start(memory);
+}
+
+template <int N>
+WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domain, Options options, Unstarted)
+    : WeaklyCompressible(std::move(store), domain, std::make_shared<const Options>(std::move(options))) {}
 
 template <int N>
 WeaklyCompressible<N>::WeaklyCompressible(Store<N> store, const Domain<N>& domain,
-                                          std::shared_ptr<const Options> options, const std::vector<double>& memory)
+                                          std::shared_ptr<const Options> options)
     : Flow<N>(std::move(store), domain, options), options_(*options) {
   configure();
   make_plan();
-  this->start(memory);
 }
 
 /// Tells each sweep which of its terms are in use, and between which groups.

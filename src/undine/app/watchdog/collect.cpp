@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <span>
 
 #include "undine/app/watchdog/pair_survey.hpp"
 #include "undine/app/watchdog/watch.hpp"
@@ -55,38 +57,85 @@ int layers_missing(const std::map<std::string, std::string>& resolved, int neede
   }
 }
 
-/// Pairs and sums of the start.
+/// Pairs and sums of the start. Distances in spacings: of a gas in those of its own, as in a PairSurvey.
 template <int N>
 void collect_filling(Evidence::Start& start, const CaseSetup<N>& setup) {
   const Store<N>& store = setup.store;
+  const bool gas = setup.choice.is_gas;
   const auto at = store.template get<x>();
   const auto mass = store.template get<m>();
   const auto density = store.template get<rho>();
-  const double H = setup.options().support.uniform;
+  const auto own_support = store.template get<h>();
   const KernelChoice kernel = setup.options().kernels[static_cast<std::size_t>(KernelRole::density)];
+  const auto room = [&](std::size_t i) { return gas ? std::pow(mass[i] / density[i], 1.0 / N) : setup.spacing; };
+  const IndexRange fluid = store.range(Group::fluid);
+  double widest = setup.options().support.uniform;
+  for (std::size_t i = fluid.begin; gas && i < fluid.end; ++i) widest = std::max(widest, own_support[i]);
   CellGrid<N> grid;
-  grid.build(at, H, setup.domain);
+  grid.build(at, widest, setup.domain);
   std::vector<std::uint32_t> found;
   std::vector<double> filling, neighbours;
-  double closest = H;
-  const IndexRange fluid = store.range(Group::fluid);
+  double closest = widest / setup.spacing;
   for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
+    const double H = gas ? own_support[i] : setup.options().support.uniform;
     grid.find(at[i], H, found);
     double sum = 0;
     for (const std::uint32_t j : found) {
       if (j >= fluid.end) continue;  // a sheet of wall particles lies closer by intention
       const double r = norm(setup.domain.nearest_image(at[i] - at[j]));
       sum += mass[j] * kernel.template w<N>(r / H) / std::pow(H, N);
-      if (j != i) closest = std::min(closest, r);
+      if (j != i) closest = std::min(closest, r / std::min(room(i), room(j)));
     }
     filling.push_back(sum / density[i]);
     neighbours.push_back(static_cast<double>(found.size()) - 1);
   }
-  start.closest = closest / setup.spacing;
+  start.closest = closest;
   start.most_filling = filling.empty() ? 1 : *std::ranges::max_element(filling);
   start.filling = quantile(filling, 0.5);
   start.neighbours = quantile(neighbours, 0.5);
 }
+
+void collect_pairs(Evidence& e, const PairSurvey& pairs, std::size_t particles) {
+  const auto share = [](std::size_t part, std::size_t all) {
+    return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
+  };
+  e.before.closest = pairs.closest;
+  e.before.clumped = share(pairs.clumped, particles);
+  e.before.isolated = share(pairs.isolated, particles);
+  e.before.tension = share(pairs.tense, pairs.clumped);
+  // Whoever is alone stands for all who are.
+  if (e.alarm == Alarm::isolated && e.particle.id < 0) e.particle.id = pairs.lone;
+}
+
+/// What a particle asks of the step, 1/s.
+template <int N>
+class StepDemand {
+ public:
+  StepDemand(const Flow<N>& flow, const Evidence& e)
+      : sound_(flow.store().template get<c>()),
+        approach_(flow.store().template get<mu_cfl>()),
+        signal_(flow.store().template get<v_signal>()),
+        support_(flow.store().template get<h>()),
+        acc_(flow.store().template get<acc>()),
+        h_(e.h()),
+        kappa_(e.setup.kappa),
+        gas_(e.setup.gas) {}
+
+  double signal_rate(std::size_t i) const { return signal_.empty() ? 0 : std::max(signal_[i], sound_[i]) / h_of(i); }
+  double operator()(std::size_t i) const {
+    const double sound = gas_ ? signal_rate(i) : (sound_[i] + (approach_.empty() ? 0 : approach_[i])) / h_;
+    const double demand = std::max(sound / 0.4, std::sqrt(norm(acc_[i]) / h_of(i)) / 0.25);
+    return std::isfinite(demand) ? demand : std::numeric_limits<double>::max();
+  }
+
+ private:
+  double h_of(std::size_t i) const { return gas_ ? support_[i] / kappa_ : h_; }
+
+  std::span<const double> sound_, approach_, signal_, support_;
+  std::span<const Vec<N>> acc_;
+  double h_, kappa_;
+  bool gas_;
+};
 
 template <int N>
 std::size_t index_of(const Store<N>& store, std::int64_t id) {
@@ -114,7 +163,24 @@ void collect_case(Evidence& e, const CaseSetup<N>& setup, const std::map<std::st
   }
   c.gradient_peak =
       gradient_peak<N>(options.kernels[static_cast<std::size_t>(KernelRole::pressure)], c.support / c.spacing);
-  if (setup.choice.is_gas) c.sound_speed = 1;  // of the gas as it is: collect_state
+  if (const auto* gas = std::get_if<GasOptions<N>>(&setup.scheme)) {
+    c.gas = true;
+    c.stiff = false;
+    c.summed = gas->density != DensityForm::evolved;
+    c.damped = gas->artificial || gas->stress;
+    c.follows = gas->smoothing != SmoothingLaw::constant;
+    using terms::EnergyForms;
+    c.shares_work = gas->energy.index() == EnergyForms::index<terms::EnergySymmetric>() ||
+                    gas->energy.index() == EnergyForms::index<terms::EnergySum>();
+    if (gas->stress)
+      for (const auto& material : options.materials) c.viscosity = std::max(c.viscosity, material.mu / material.rho_0);
+    c.sound_speed = 0;  // of the gas as it is
+  }
+  c.ghosts = setup.choice.ghosts.has_value();
+  if (c.ghosts) c.room = std::max(options.mirrored_support, options.support.uniform);
+  for (int k = 0; k < N; ++k)
+    if (setup.domain.periodic[k])
+      c.room = std::min(c.room, setup.domain.length(k) / (2 * (1 + options.neighbours.skin)));
   if (const auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup.scheme)) {
     c.summed = liquid->density != DensityForm::evolved;
     c.damped = liquid->artificial || liquid->viscosity;
@@ -147,37 +213,39 @@ void collect_case(Evidence& e, const CaseSetup<N>& setup, const std::map<std::st
     s.lowest_density = std::min(s.lowest_density, density);
     s.highest_density = std::max(s.highest_density, density);
     speeds.push_back(norm(store.template get<v>()[i]));
+    if (c.gas)
+      s.sound =
+          std::max(s.sound, material.sound_speed(store.template get<rho>()[i], store.template get<field::e>()[i]));
     if (material.pressure(store.template get<rho>()[i]) < 0) s.tension += 1.0 / static_cast<double>(fluid.size());
   }
   c.depth = c.gravity > 0 && highest > lowest ? (highest - lowest) / c.gravity : 0;
+  c.sound_speed = std::max(c.sound_speed, s.sound);
   s.fastest = speeds.empty() ? 0 : *std::ranges::max_element(speeds);
   s.typical_speed = quantile(speeds, 0.99);
   collect_filling(s, setup);
 }
 
 template <int N>
-void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) {
+void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup, Rates rates) {
   const Store<N>& store = flow.store();
   const auto at = store.template get<x>();
   const auto u = store.template get<v>();
   const auto a = store.template get<acc>();
   const IndexRange fluid = store.range(Group::fluid), wall = store.range(Group::wall);
   const bool has_walls = setup.walls && !setup.walls->empty();
-  const PairSurvey pairs = survey_pairs(flow, setup.spacing);
+  const bool listed = flow.neighbours().support() > 0;  // not where the very first look at the state ended it
   auto& b = e.before;
-  b.closest = pairs.closest / setup.spacing;
-  b.clumped = static_cast<double>(pairs.clumped) / static_cast<double>(std::max<std::size_t>(fluid.size(), 1));
-  b.tension = pairs.clumped ? static_cast<double>(pairs.tense) / static_cast<double>(pairs.clumped) : 0;
-  if (setup.choice.is_gas)
-    for (std::size_t i = fluid.begin; i < fluid.end; ++i)
-      e.setup.sound_speed = std::max(e.setup.sound_speed, store.template get<c>()[i]);
+  if (listed) collect_pairs(e, survey_pairs(flow, setup.spacing), fluid.size());
   std::vector<double> demands;
-  const auto approach = store.template get<mu_cfl>();
+  const StepDemand<N> demand(flow, e);
   for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
     b.fastest = std::max(b.fastest, norm(u[i]));
     if (has_walls) b.behind = std::max(b.behind, -setup.walls->depth(widen(at[i])));
-    demands.push_back(std::max((store.template get<c>()[i] + (approach.empty() ? 0 : approach[i])) / (0.4 * e.h()),
-                               std::sqrt(norm(a[i]) / e.h()) / 0.25));
+    demands.push_back(demand(i));
+    if (e.setup.gas) {
+      e.setup.sound_speed = std::max(e.setup.sound_speed, store.template get<c>()[i]);
+      b.courant = std::max(b.courant, demand.signal_rate(i) * e.dt);
+    }
     if (!flow.options().body_force) continue;
     for (const double t : {e.time, e.time + 0.5 * e.dt, e.time + e.dt}) {
       const double strength = norm(flow.options().body_force(at[i], t));
@@ -205,14 +273,22 @@ void collect_state(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) 
   p.p = store.template get<field::p>()[i];
   p.c = store.template get<c>()[i];
   if (has_walls && !e.exit.left) p.depth = setup.walls->depth(p.x);
-  if (const auto* liquid = dynamic_cast<const WeaklyCompressible<N>*>(&flow))
-    for (const auto& part : force_parts(*liquid, i)) p.forces.push_back({part.term, norm(part.acc)});
-  std::ranges::stable_sort(p.forces, std::ranges::greater{}, &ForceShare::size);
+  if (e.setup.gas) {
+    p.e = store.template get<field::e>()[i];
+    p.support = store.template get<h>()[i];
+  }
+  if (listed && rates == Rates::known)
+    for (const auto& part : force_parts(flow, i)) p.forces.push_back({part.term, norm(part.acc)});
+  const auto size = [](const ForceShare& share) {  // what is no number leads
+    return std::isnan(share.size) ? std::numeric_limits<double>::infinity() : share.size;
+  };
+  std::ranges::stable_sort(p.forces, std::ranges::greater{}, size);
 }
 
 template <int N>
 void collect_exit(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) {
   const Store<N>& store = flow.store();
+  for (const double H : store.template get<h>()) e.exit.widest = std::max(e.exit.widest, H);
   const std::size_t i = index_of(store, e.particle.id);
   if (e.alarm != Alarm::outside || i >= store.size()) return;
   const Vec<N> at = store.template get<x>()[i];
@@ -256,9 +332,9 @@ std::int64_t first_not_finite(const Flow<N>& bad, const Flow<N>& before) {
 template void collect_case(Evidence&, const CaseSetup<1>&, const std::map<std::string, std::string>&);
 template void collect_case(Evidence&, const CaseSetup<2>&, const std::map<std::string, std::string>&);
 template void collect_case(Evidence&, const CaseSetup<3>&, const std::map<std::string, std::string>&);
-template void collect_state(Evidence&, const Flow<1>&, const CaseSetup<1>&);
-template void collect_state(Evidence&, const Flow<2>&, const CaseSetup<2>&);
-template void collect_state(Evidence&, const Flow<3>&, const CaseSetup<3>&);
+template void collect_state(Evidence&, const Flow<1>&, const CaseSetup<1>&, Rates);
+template void collect_state(Evidence&, const Flow<2>&, const CaseSetup<2>&, Rates);
+template void collect_state(Evidence&, const Flow<3>&, const CaseSetup<3>&, Rates);
 template void collect_exit(Evidence&, const Flow<1>&, const CaseSetup<1>&);
 template void collect_exit(Evidence&, const Flow<2>&, const CaseSetup<2>&);
 template void collect_exit(Evidence&, const Flow<3>&, const CaseSetup<3>&);

@@ -12,9 +12,13 @@ namespace undine {
 template <int N>
 void collect_case(Evidence& evidence, const CaseSetup<N>& setup, const std::map<std::string, std::string>& resolved);
 
-/// A state in which all is finite: the particle's numbers and what acts on it, and what all of them do.
+/// Whether a state got as far as its rates, without which no term can be asked for its part.
+enum class Rates { known, missing };
+
+/// A state in which all is finite, or the best there is: the particle's numbers and what acts on it, and what all of
+/// them do.
 template <int N>
-void collect_state(Evidence& evidence, const Flow<N>& flow, const CaseSetup<N>& setup);
+void collect_state(Evidence& evidence, const Flow<N>& flow, const CaseSetup<N>& setup, Rates rates);
 
 /// The state that the alarm was for: where the particle is, if it left.
 template <int N>

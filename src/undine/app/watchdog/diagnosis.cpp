@@ -34,7 +34,8 @@ Json vector_json(const Vec3& a, int dimensions) {
 
 double Evidence::natural_speed() const {
   const double thrown = causes::WildParticle::holds(*this) ? start.typical_speed : start.fastest;
-  return std::max({std::sqrt(2 * setup.gravity * setup.depth), thrown, before.fastest_wall});
+  // Gas expands into a void with 2 c/(gamma - 1), which is what twice c and the factors of those who ask allow for.
+  return std::max({std::sqrt(2 * setup.gravity * setup.depth), thrown, before.fastest_wall, 2 * start.sound});
 }
 
 Diagnosis diagnose(const Evidence& evidence) {
@@ -78,6 +79,12 @@ std::string describe_alarm(const Evidence& e) {
       return fmt::format("particles lie on each other {}; {} is the closest to another one", when, who);
     case Alarm::residual:
       return fmt::format("the residual of the energy audit jumped {}", when);
+    case Alarm::energy:
+      return fmt::format("{} has no internal energy or density above zero left {}", who, when);
+    case Alarm::support:
+      return fmt::format("no support radius serves {} {}", who, when);
+    case Alarm::isolated:
+      return fmt::format("particles have no neighbours within their support {}", when);
   }
   return "the run went bad " + when;
 }
@@ -89,8 +96,10 @@ std::string diagnosis_text(const Diagnosis& d, const Evidence& e) {
   if (a.id >= 0) {
     text += fmt::format("particle  {} at x = {} m, v = {} m/s, acceleration {} m/s^2\n", a.id, vector_text(a.x, n),
                         vector_text(a.v, n), vector_text(a.acc, n));
-    text += fmt::format("state     rho = {:.6g} kg/m^3 (rho_0 = {:.6g}), p = {:.6g} Pa, c = {:.4g} m/s\n", a.rho,
-                        a.rho_0, a.p, a.c);
+    text += fmt::format("state     rho = {:.6g} kg/m^3 ({}), p = {:.6g} Pa, c = {:.4g} m/s\n", a.rho,
+                        e.setup.gas ? fmt::format("e = {:.6g} J/kg, H = {:.4g} m", a.e, a.support)
+                                    : fmt::format("rho_0 = {:.6g}", a.rho_0),
+                        a.p, a.c);
     if (!a.forces.empty())
       text += fmt::format("terms     largest: {}; {}\n", a.forces.front().term, forces_text(a.forces));
   }
@@ -125,6 +134,7 @@ Json diagnosis_json(const Diagnosis& d, const Evidence& e) {
                         {"rho_0", a.rho_0},
                         {"p", a.p},
                         {"c", a.c}};
+    if (e.setup.gas) json["particle"].update({{"e", a.e}, {"support", a.support}});
     json["terms"] = forces;
   }
   return json;

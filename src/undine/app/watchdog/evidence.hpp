@@ -12,9 +12,9 @@
 namespace undine {
 
 /// What the watchdog stops a run for.
-enum class Alarm { not_finite, outside, step_collapse, density, coincidence, residual };
-inline constexpr std::array<std::string_view, 6> alarm_names{"not_finite", "outside",     "step_collapse",
-                                                             "density",    "coincidence", "residual"};
+enum class Alarm { not_finite, outside, step_collapse, density, coincidence, residual, energy, support, isolated };
+inline constexpr std::array<std::string_view, 9> alarm_names{
+    "not_finite", "outside", "step_collapse", "density", "coincidence", "residual", "energy", "support", "isolated"};
 
 /// A part of an acceleration, by the term and the group that it comes from.
 struct ForceShare {
@@ -37,6 +37,7 @@ struct Evidence {
     double rho = 1000, rho_0 = 1000;  ///< kg/m^3
     double p = 0;                     ///< Pa
     double c = 1;                     ///< m/s
+    double e = 0, support = 0;        ///< J/kg, m; of a gas
     double depth =
         std::numeric_limits<double>::infinity();  ///< m, before the surface of the nearest wall; < 0: behind it
     std::vector<ForceShare> forces;               ///< the largest first
@@ -45,7 +46,7 @@ struct Evidence {
   /// What the case says.
   struct Case {
     double spacing = 1, support = 2.6, kappa = 2;  ///< m, m, -
-    double sound_speed = 1;                        ///< m/s, the smallest c_0 of the fluids
+    double sound_speed = 1;                        ///< m/s, the smallest c_0 of the fluids; of a gas its largest c
     double gravity = 0;                            ///< m/s^2
     double depth = 0;                              ///< m, height of the fluid against gravity at the start
     double gradient_peak = 0.65;  ///< r/spacing at which the gradient of the pressure kernel is largest
@@ -53,6 +54,11 @@ struct Evidence {
     bool damped = true;           ///< whether any viscosity acts
     bool summed = false;          ///< density by summation
     bool stiff = true;            ///< whether all densities must stay near rho_0
+    bool gas = false;             ///< whether particles have an internal energy
+    bool follows = false;         ///< whether H follows the density of a gas
+    bool shares_work = false;     ///< whether the work of a gas's pressure is halved between the particles of a pair
+    bool ghosts = false;          ///< whether walls mirror the fluid
+    double room = std::numeric_limits<double>::infinity();  ///< m, the largest H that ghosts and periods serve
     bool fixed_step = false;
     bool euler = false;  ///< explicit Euler
     int dimensions = 2;
@@ -69,6 +75,7 @@ struct Evidence {
     double tension = 0;                              ///< share of particles with p < 0
     double least_mass = 1, most_mass = 1;            ///< m/(rho_0 spacing^N)
     double fastest = 0, typical_speed = 0;           ///< m/s: largest, and that of the 99 % slowest
+    double sound = 0;                                ///< m/s, the largest c of a gas
     double neighbours = 20;                          ///< median number within H
   } start;
 
@@ -80,24 +87,27 @@ struct Evidence {
     double fastest = 0;           ///< m/s, of the fluid
     double fastest_wall = 0;      ///< m/s
     double behind = 0;            ///< m, how far the deepest fluid is behind a wall's surface
+    double isolated = 0;          ///< share of particles without a neighbour within H
+    double courant = 0;           ///< largest v_signal dt/h of a gas
     double one_against_rest = 1;  ///< largest demand on the step over that of the 99 % easiest
     bool body_force_finite = true;
     double body_force = 0;  ///< m/s^2, largest
   } before;
 
-  /// Where the particle left the domain, if it did.
+  /// The state that the alarm was for: where the particle left the domain, if it did.
   struct Exit {
     bool left = false;
     bool downwards = false, upwards = false;  ///< through the face that gravity points to, or the one above
     double speed = 0;                         ///< m/s
+    double widest = 0;                        ///< m, the largest H then
   } exit;
 
   double h() const { return setup.support / setup.kappa; }
-  /// c dt/h.
-  double courant() const { return setup.sound_speed * dt / h(); }
+  /// c dt/h; of a gas by the speed of signals, where it is largest.
+  double courant() const { return setup.gas ? before.courant : setup.sound_speed * dt / h(); }
   /// nu dt/h^2.
   double viscous_number() const { return setup.viscosity * dt / sq(h()); }
-  /// What gravity and the initial velocities can give, m/s.
+  /// What gravity, the initial velocities and the expansion of a gas can give, m/s.
   double natural_speed() const;
   /// How far fluid is behind the surface of a wall, m.
   double behind_walls() const { return std::max(before.behind, -particle.depth); }

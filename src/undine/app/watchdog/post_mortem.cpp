@@ -55,7 +55,8 @@ std::unique_ptr<Flow<N>> come_back(CaseSetup<N>& setup, const Checkpoints& check
   if (found && found->checkpoint.frame.step > last) found.reset();
   try {
     std::int64_t step = found ? found->checkpoint.frame.step : 0;
-    auto flow = start_flow(setup, found ? &found->checkpoint : nullptr);
+    auto flow = flow_of_case(setup, found ? &found->checkpoint : nullptr);
+    if (!found) flow->start();
     for (;; ++step) {
       if (step + window_steps > last) window.add(*flow, step);
       if (step == last) return flow;
@@ -85,10 +86,13 @@ Examined examine(const AlarmedRun& alarmed, const Flow<N>& flow, const Document&
   collect_case(e, setup, resolved);
   collect_exit(e, flow, setup);
   Window window(folder / "window");
-  const auto before = come_back(setup, checkpoints, alarmed.last_good, window, stop);
+  const bool began = alarmed.last_good >= 0;
+  const auto before =
+      began ? come_back(setup, checkpoints, alarmed.last_good, window, stop) : std::unique_ptr<Flow<N>>();
   if (before && e.alarm == Alarm::not_finite)
     if (const std::int64_t first = first_not_finite(flow, *before); first >= 0) e.particle.id = first;
-  collect_state(e, before ? *before : flow, setup);
+  collect_state(e, before ? *before : flow, setup,
+                before || e.alarm == Alarm::not_finite ? Rates::known : Rates::missing);
   if (alarmed.step != alarmed.last_good) window.add(flow, alarmed.step);
   examined.window = window.size();
   examined.diagnosis = diagnose(e);

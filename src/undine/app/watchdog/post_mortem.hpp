@@ -15,7 +15,7 @@ struct AlarmedRun {
   AlarmHit hit;
   double time = 0, dt = 0;     ///< s
   std::int64_t step = 0;       ///< the one that led to it
-  std::int64_t last_good = 0;  ///< steps after which the state was still sound
+  std::int64_t last_good = 0;  ///< steps after which the state was still sound; -1: it never was
 };
 
 struct Examined {

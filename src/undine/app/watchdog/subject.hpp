@@ -13,18 +13,21 @@ typename Watch<N>::Subject watch_subject(const CaseSetup<N>& setup) {
   const auto& options = setup.options();
   const auto& limits = setup.choice.limits;
   const auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup.scheme);
-  const bool evolved = liquid && liquid->density == DensityForm::evolved;
+  const double h = options.support.uniform / options.support.kappa;
+  if (!liquid) {
+    // The sound of a gas follows from its state, and so does the step.
+    return {.spacing = setup.spacing, .courant_h = limits.fixed > 0 ? 0 : limits.courant * h, .summed = true};
+  }
+  const bool evolved = liquid->density == DensityForm::evolved;
   typename Watch<N>::Subject subject{
       .spacing = setup.spacing, .largest_step = limits.largest, .summed = !evolved, .audited = evolved};
-  const double h = options.support.uniform / options.support.kappa;
   for (const auto& material : options.materials) {
-    const double sound = liquid ? material.sound_speed(material.rho_0) : 0;
+    const double sound = material.sound_speed(material.rho_0);
     if (sound > 0) subject.largest_step = std::min(subject.largest_step, limits.courant * h / sound);
-    if (liquid && liquid->viscosity && material.mu > 0)
+    if (liquid->viscosity && material.mu > 0)
       subject.largest_step = std::min(subject.largest_step, limits.viscous * sq(h) * material.rho_0 / material.mu);
   }
-  // The sound of a gas follows from its state; only a step that is none stops it.
-  if (limits.fixed > 0 || !liquid) subject.largest_step = 0;
+  if (limits.fixed > 0) subject.largest_step = 0;
   return subject;
 }
 

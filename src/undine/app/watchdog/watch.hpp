@@ -33,6 +33,7 @@ class Watch {
   struct Subject {
     double spacing = 0;       ///< m
     double largest_step = 0;  ///< s, that sound and viscosity allow at rest; 0: steps are fixed
+    double courant_h = 0;     ///< m, Courant number times h of a gas; 0: of a liquid, or steps are fixed
     bool summed = false;      ///< whether density is a sum, which is low where neighbours lack
     bool audited = true;      ///< whether the audit closes but for the step
   };
@@ -53,6 +54,7 @@ class Watch {
     return density >= lowest_[k] && density <= highest_[k];  // false for NaN
   }
   void check_places(const Flow<N>& flow) const;
+  void check_energies(const Flow<N>& flow) const;
   void check_pairs(const Flow<N>& flow) const;
   void audit(const Flow<N>& flow);
 
@@ -66,9 +68,10 @@ class Watch {
 /// Whether an equation of state is meant for densities near rho_0 only.
 bool is_stiff(const materials::Material& material);
 
-/// What a RunError of the moves themselves is about, by the state that they left; nothing where the state is sound.
+/// What a RunError of the moves themselves is about: what a StateError says, or by the state that they left; nothing
+/// where that is sound.
 template <int N>
-std::optional<AlarmHit> hit_of_state(const Flow<N>& flow);
+std::optional<AlarmHit> hit_of(const RunError& error, const Flow<N>& flow);
 
 extern template class Watch<1>;
 extern template class Watch<2>;

@@ -64,7 +64,8 @@ struct MissingViscosity {
   static std::string because(const Evidence&) {
     return "no viscosity acts, so that shocks let particles pass through each other";
   }
-  static std::string remedy(const Evidence&) {
+  static std::string remedy(const Evidence& e) {
+    if (e.setup.gas) return "set scheme.artificial_viscosity.form = \"signal\" (alpha 1, beta 2)";
     return "set scheme.artificial_viscosity.form = \"monaghan\" (alpha 0.02; 0.1 to 1 and beta where fluid collides)";
   }
 };

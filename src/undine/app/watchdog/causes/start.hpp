@@ -20,9 +20,14 @@ struct BodyForceNotFinite {
 
 struct UnitsOfDensity {
   static constexpr Info info{"units_of_density", "Mass and density are given in different units",
-                             "m/(rho_0 spacing^N) < 0.1 or > 10", ""};
-  static bool holds(const Evidence& e) { return e.start.least_mass < 0.1 || e.start.most_mass > 10; }
+                             "m/(rho_0 spacing^N) < 0.1 or > 10; of a gas the median of sum m W/rho", ""};
+  static bool holds(const Evidence& e) {
+    // Gases thin and dense have the same masses, or the same spacing.
+    if (e.setup.gas) return e.start.filling < 0.1 || e.start.filling > 10;
+    return e.start.least_mass < 0.1 || e.start.most_mass > 10;
+  }
   static std::string because(const Evidence& e) {
+    if (e.setup.gas) return fmt::format("masses fill space {:.3g} times with the densities as given", e.start.filling);
     const double worst = e.start.most_mass > 10 ? e.start.most_mass : e.start.least_mass;
     return fmt::format("particles hold {:.3g} times the mass rho_0 spacing^{} that density and spacing give", worst,
                        e.setup.dimensions);

@@ -6,18 +6,20 @@ namespace undine::causes {
 // Steps and speeds of sound.
 
 struct StepOverCourant {
-  static constexpr Info info{"step_over_courant", "The time step is longer than sound allows", "c_0 dt/h > 0.7",
-                             "Monaghan (1992), eq. 10.5"};
+  static constexpr Info info{"step_over_courant", "The time step is longer than sound allows",
+                             "c_0 dt/h > 0.7; of a gas v_signal dt/h", "Monaghan (1992), eq. 10.5"};
   static bool holds(const Evidence& e) { return e.courant() > 0.7; }
   static std::string because(const Evidence& e) {
+    if (e.setup.gas)
+      return fmt::format("signals cross {:.3g} h in a step of {:.4g} s; 0.3 is usual", e.courant(), e.dt);
     return fmt::format("c dt/h = {:.3g} with c = {:.4g} m/s, dt = {:.4g} s, h = {:.4g} m; 0.4 is usual", e.courant(),
                        e.setup.sound_speed, e.dt, e.h());
   }
   static std::string remedy(const Evidence& e) {
-    const double good = 0.4 * e.h() / e.setup.sound_speed;
+    const double usual = e.setup.gas ? 0.3 : 0.4, good = usual * e.dt / e.courant();
     return e.setup.fixed_step
                ? fmt::format("set time.step to {:.3g} s or less, or leave it out and let time.courant choose", good)
-               : "set time.courant to 0.4 or less";
+               : fmt::format("set time.courant to {} or less", usual);
   }
 };
 
@@ -39,8 +41,8 @@ struct StepOverViscous {
 
 struct WallFasterThanSound {
   static constexpr Info info{"wall_faster_than_sound", "A wall moves at the speed of sound or above",
-                             "largest speed of wall particles > 0.3 c_0", ""};
-  static bool holds(const Evidence& e) { return e.before.fastest_wall > 0.3 * e.setup.sound_speed; }
+                             "largest speed of wall particles > 0.3 c_0, of a liquid", ""};
+  static bool holds(const Evidence& e) { return !e.setup.gas && e.before.fastest_wall > 0.3 * e.setup.sound_speed; }
   static std::string because(const Evidence& e) {
     return fmt::format("a wall moves at {:.4g} m/s, the speed of sound is {:.4g} m/s", e.before.fastest_wall,
                        e.setup.sound_speed);
@@ -53,9 +55,10 @@ struct WallFasterThanSound {
 
 struct UnitsOfGravity {
   static constexpr Info info{"units_of_gravity", "Gravity compresses the fluid by its own weight",
-                             "g > 50 m/s^2 and sqrt(2 g depth) > 0.3 c_0", ""};
+                             "g > 50 m/s^2 and sqrt(2 g depth) > 0.3 c_0, of a liquid", ""};
   static bool holds(const Evidence& e) {
-    return e.setup.gravity > 50 && std::sqrt(2 * e.setup.gravity * e.setup.depth) > 0.3 * e.setup.sound_speed;
+    return !e.setup.gas && e.setup.gravity > 50 &&
+           std::sqrt(2 * e.setup.gravity * e.setup.depth) > 0.3 * e.setup.sound_speed;
   }
   static std::string because(const Evidence& e) {
     return fmt::format(
