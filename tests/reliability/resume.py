@@ -88,6 +88,8 @@ def same_bits(program, folder):
     for form in ("summation", "normalised_summation"):
         halves(program, folder, form, ["--set", f"scheme.density.form={form}", "--set", "scheme.wall.treatment=wall_particles", "--set",
                                        "watchdog.active=false"], GAUGES)
+    for form in names(program, "density_filter"):
+        halves(program, folder, form, ["--set", f"scheme.density_filter.form={form}", "--set", "scheme.density_filter.every=3"], GAUGES)
     for label, key in (("law", "scheme.smoothing.law=density"), ("xsph", "scheme.xsph.form=xsph"), ("antuono", "scheme.density_diffusion.form=antuono"),
                        ("serial", "scheme.backend=serial"), ("reflect", "domain.on_escape=reflect")):
         halves(program, folder, label, ["--set", key], GAUGES)
