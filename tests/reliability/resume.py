@@ -201,6 +201,7 @@ def terms(program, folder):
           words_of_list=("constant", "density", "density_rate"))
     every(program, folder, "shifting", "scheme.shifting.form", forms=FORMS[1:2])
     every(program, folder, "density_diffusion", "scheme.density_diffusion.form", forms=FORMS[:2])
+    every(program, folder, "density_filter", "scheme.density_filter.form", forms=FORMS[:1], more=("--set", "scheme.density_filter.every=3"))
     every(program, folder, "velocity_correction", "scheme.xsph.form", forms=FORMS[:1])
     for form, key in (("liquid", "scheme.smoothing.law=density"), ("liquid", "scheme.backend=serial"), ("gas", "scheme.backend=serial"),
                       ("gas", "scheme.precision=double"), ("liquid", "domain.on_escape=reflect"), ("gas", "domain.on_escape=remove")):

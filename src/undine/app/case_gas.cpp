@@ -94,6 +94,7 @@ SchemeChoice read_gas(const Table& root, double spacing, GasOptions<N>& options,
   const Table scheme = root.table("scheme");
   constexpr PresetBasics basics = basics_of<Preset>();
   read_density(scheme, Preset::density, options);
+  read_density_filter(scheme, options.density == DensityForm::evolved, options);
   const std::string_view law = options.iterates()                ? "number_density"
                                : Preset::law == "number_density" ? "density"
                                                                  : Preset::law;

@@ -132,6 +132,7 @@ SchemeChoice read_liquid(const Table& root, double spacing, WeaklyCompressibleOp
                                                                 {"summation", "normalised_summation"});
   options.density = density_form(density);
   options.continuity.choose(std::max(0, terms::ContinuityForms::index_of(density)));
+  read_density_filter(scheme, options.density == DensityForm::evolved, options);
   options.pressure.choose(
       terms::PressureForms::index_of(read_form<terms::PressureForms>(scheme.table("pressure"), Preset::pressure)));
   choice.separation = Preset::separation;
@@ -254,17 +255,18 @@ std::string describe_terms(const SchemeOptions<N>& options) {
   };
   if (const auto* gas = std::get_if<GasOptions<N>>(&options)) {
     const char* densities[] = {"by continuity", "summed", "summed and normalised", "and support by each other"};
-    return fmt::format("density {}, pressure {}, energy {}{}{}{}{}", densities[static_cast<int>(gas->density)],
-                       gas->pressure.info().name, gas->energy.info().name,
+    return fmt::format("density {}{}, pressure {}, energy {}{}{}{}{}", densities[static_cast<int>(gas->density)],
+                       if_any("filter", gas->density_filter), gas->pressure.info().name, gas->energy.info().name,
                        if_any("artificial viscosity", gas->artificial),
                        gas->switches() ? fmt::format(" ({})", gas->viscosity_switch.info().name) : "",
                        gas->conductivity ? ", conductivity" : "", if_any("viscosity", gas->stress));
   }
   const auto& liquid = std::get<WeaklyCompressibleOptions<N>>(options);
-  return fmt::format("pressure {}, {}{}{}{}{}", liquid.pressure.info().name,
+  return fmt::format("pressure {}, {}{}{}{}{}{}", liquid.pressure.info().name,
                      liquid.density == DensityForm::evolved ? liquid.continuity.info().name : "summation",
-                     if_any("viscosity", liquid.viscosity), if_any("artificial viscosity", liquid.artificial),
-                     if_any("diffusion", liquid.diffusion), liquid.xsph ? ", XSPH" : "");
+                     if_any("filter", liquid.density_filter), if_any("viscosity", liquid.viscosity),
+                     if_any("artificial viscosity", liquid.artificial), if_any("diffusion", liquid.diffusion),
+                     liquid.xsph ? ", XSPH" : "");
 }
 
 materials::Material read_material(const Table& table, const SchemeChoice& choice, double expected_speed,

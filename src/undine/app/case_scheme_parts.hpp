@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "undine/app/case_scheme.hpp"
+#include "undine/app/parameters.hpp"
 #include "undine/schemes/presets.hpp"
 
 namespace undine {
@@ -32,6 +33,22 @@ inline DensityForm density_form(std::string_view word) {
   return word == "summation"              ? DensityForm::summation
          : word == "normalised_summation" ? DensityForm::normalised
                                           : DensityForm::evolved;
+}
+
+/// Whether, and how, a density that is carried by continuity is summed anew now and then.
+template <int N>
+void read_density_filter(const Table& scheme, bool carried, FlowOptions<N>& options) {
+  const Table table = scheme.table("density_filter");
+  const std::string form = read_form<terms::DensityFilters>(table, "none", {"none"});
+  if (form == "none") return;
+  if (!carried)
+    table.fail("form", "only a density that is carried by continuity can be summed anew",
+               "another one is summed in every step as it is",
+               "set scheme.density.form = \"continuity\", or leave the filter out");
+  ChoiceOf<terms::DensityFilters> filter;
+  filter.choose(terms::DensityFilters::index_of(form));
+  filter.with_chosen([&](auto& chosen) { read_parameters(table, chosen); });
+  options.density_filter = filter;
 }
 
 /// What a preset says of the keys that all schemes have.

@@ -464,18 +464,21 @@ class Reader {
     if (g_sq > 0) setup_.potential_origin = -(lowest / g_sq) * g;
   }
 
-  /// Density diffusion knows one density at rest: between fluids of two it would take away what tells them apart.
+  /// What evens out densities knows one at rest: between liquids of two it would take away what tells them apart.
   void refuse_diffusion_of_fluids() const {
-    const auto& materials = setup_.options().materials;
     const auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup_.scheme);
-    if (!liquid || !liquid->diffusion) return;
+    if (liquid && liquid->diffusion) refuse_fluids_of("density_diffusion", "density diffusion acts");
+    if (liquid && liquid->density_filter) refuse_fluids_of("density_filter", "the density filter acts");
+  }
+  void refuse_fluids_of(std::string_view key, std::string_view what) const {
+    const auto& materials = setup_.options().materials;
     for (const auto& material : materials)
       if (material.rho_0 != materials.front().rho_0)
-        root_.table("scheme").fail("density_diffusion",
-                                   fmt::format("density diffusion acts between '{}' and '{}', which differ in density",
+        root_.table("scheme").fail(key,
+                                   fmt::format("{} between '{}' and '{}', which differ in density", what,
                                                materials.front().name, material.name),
                                    "it would mix their densities, not their noise",
-                                   "set scheme.density_diffusion.form = \"none\"");
+                                   fmt::format("set scheme.{}.form = \"none\"", key));
   }
 
   [[noreturn]] static void not_finite(const Table& table, std::string_view key, std::string_view name, const Vec3& p) {

@@ -22,6 +22,7 @@
 #include "undine/schemes/presets.hpp"
 #include "undine/search/search.hpp"
 #include "undine/terms/catalogue.hpp"
+#include "undine/terms/density/filters.hpp"
 #include "undine/terms/velocity/shifting.hpp"
 #include "undine/walls/catalogue.hpp"
 
@@ -149,6 +150,7 @@ std::vector<Axis> make_axes() {
       axis_of<terms::ViscosityForms>("viscosity", "Forms of the viscous force"),
       axis_of<terms::ArtificialViscosities>("artificial_viscosity", "Artificial viscosities"),
       axis_of<terms::DiffusionForms>("density_diffusion", "Density diffusion"),
+      axis_of<terms::DensityFilters>("density_filter", "How a density that is carried by continuity is summed anew"),
       axis_of<terms::VelocityCorrections>("velocity_correction", "Corrections of the velocity that moves particles"),
       axis_of<terms::Shiftings>("shifting", "How particles are shifted towards even spacing"),
       axis_of<terms::GradHDensities>("gas_density", "Densities of gases that determine the support radius, and by it"),

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "undine/core/error.hpp"
+#include "undine/schemes/flow_density_impl.hpp"
 #include "undine/schemes/flow_stages_impl.hpp"
 #include "undine/schemes/particle_rules.hpp"
 #include "undine/schemes/state_error.hpp"
@@ -30,29 +31,6 @@ void Flow<N>::start(const std::vector<double>& memory) {
   } else {
     recall(memory);
   }
-}
-
-template <int N>
-void Flow<N>::add_summation_stages(DensityForm form, bool walls) {
-  summation_.template use<0>().sources = shepard_.template use<0>().sources = {true, walls};
-  if (form == DensityForm::summation) {
-    add_sweep(summation_, walls);
-    add_update("summed density", Group::fluid, rules::TakeSummedDensity{});
-  }
-  if (form != DensityForm::normalised) return;
-  // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
-  const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
-  Resources reads(Group::fluid, Fields<m, rho>::set() | place());
-  if (walls) reads.add(Group::wall, Fields<m>::set() | place());
-  // Walls that take their density from the fluid's, ghosts among them, have that of before too.
-  using walls::WallDensity;
-  const bool own = common_->wall_density == WallDensity::evolved || common_->wall_density == WallDensity::modified;
-  if (walls && own) reads.add(Group::wall, Fields<rho>::set());
-  plan_.add({"normalised density", reads, touched, [this] {
-               run(summation_);
-               run(shepard_);
-               update(store_, Group::fluid, rules::TakeNormalisedDensity{});
-             }});
 }
 
 template <int N>
@@ -271,10 +249,11 @@ void Flow<N>::correct_kick(double dt) {
   for_each_particle(store_, Group::fluid, [&](std::size_t i) { u[i] += dt * (a[i] - old[i]); });
 }
 
-/// What acts once a step: pushes of surfaces.
+/// What acts once a step: pushes of surfaces, and what smooths the density.
 template <int N>
 void Flow<N>::smooth() {
   if (common_->pushed_out) push_from_walls(time_ - step_end_);
+  if (common_->density_filter) filter_density();
   step_end_ = time_;
 }
 
@@ -325,7 +304,8 @@ std::vector<double*> Flow<N>::accounts() {
 
 template <int N>
 std::vector<double> Flow<N>::memory() const {
-  std::vector<double> numbers{time_, neighbours_.support(), control_.proposed, control_.error_before};
+  std::vector<double> numbers{time_, neighbours_.support(), control_.proposed, control_.error_before,
+                              steps_since_filter_};
   for (const double* number : const_cast<Flow&>(*this).remembered()) numbers.push_back(*number);
   numbers.push_back(static_cast<double>(escaped_));
   return numbers;
@@ -333,7 +313,7 @@ std::vector<double> Flow<N>::memory() const {
 
 template <int N>
 void Flow<N>::recall(const std::vector<double>& numbers) {
-  const std::size_t expected = remembered().size() + 5;
+  const std::size_t expected = remembered().size() + 6;
   if (numbers.size() != expected)
     throw InputError({.what = "the checkpoint is of another version of this program",
                       .why = fmt::format("it remembers {} numbers, this scheme {}", numbers.size(), expected),
@@ -343,6 +323,7 @@ void Flow<N>::recall(const std::vector<double>& numbers) {
   neighbours_.rebuild_from_list_positions(store_, *next++);
   control_.proposed = *next++;
   control_.error_before = *next++;
+  steps_since_filter_ = *next++;
   if (ghosts_) ghosts_->find_parents(store_);
   for (double* number : remembered()) *number = *next++;
   step_end_ = time_;

@@ -191,6 +191,7 @@ class Flow {
   void place_surfaces(double t) const;
   void move_walls();
   void push_from_walls(double dt);
+  void filter_density();
   double largest_support() const;
   Vec<N> change(const Evolved& state, std::size_t r, std::int64_t id, std::span<const double> weights) const;
   /// The state of a stage; what XSPH did against gravity on the way, J.
@@ -205,6 +206,7 @@ class Flow {
   double support_now_ = 0;
   double time_start_ = 0;
   double step_end_ = 0;  ///< when the last step ended, s
+  double steps_since_filter_ = 0;
   Energies::Ledger ledger_start_;
   std::vector<Evolved> stages_;
   integrators::StepControl control_;

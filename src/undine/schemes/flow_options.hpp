@@ -14,6 +14,7 @@
 #include "undine/materials/catalogue.hpp"
 #include "undine/schemes/wall_motion.hpp"
 #include "undine/terms/catalogue.hpp"
+#include "undine/terms/density/filters.hpp"
 #include "undine/walls/catalogue.hpp"
 #include "undine/walls/mirrors.hpp"
 
@@ -61,6 +62,8 @@ struct FlowOptions {
   SmoothingLaw smoothing = SmoothingLaw::constant;
   bool own_supports = false;  ///< whether particles have an H of their own even where it is constant
   bool supports_vary() const { return own_supports || smoothing != SmoothingLaw::constant; }
+
+  std::optional<ChoiceOf<terms::DensityFilters>> density_filter;  ///< of a density that is carried by continuity
 
   walls::WallDensity wall_density = walls::WallDensity::none;
   bool wall_pulls =

@@ -235,6 +235,15 @@ Json score_json(const Score& score) {
               {"source", score.source}};
 }
 
+std::string score_row(const std::string& name, const Score& score) {
+  return md_row({name, score.metric, md_number(score.value) + (score.unit.empty() ? "" : " " + score.unit),
+                 score.limit_text(),
+                 !score.limited() ? ""
+                 : score.pass()   ? "yes"
+                                  : "NO",
+                 score.source});
+}
+
 void write_report(const StudyFile& study, const std::vector<Member>& members, const std::filesystem::path& folder) {
   const Writer writer(study, members);
   write_text_atomically(folder / "results.csv", writer.csv());

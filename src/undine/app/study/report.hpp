@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "undine/app/study/table.hpp"
 #include "undine/io/run_record.hpp"
@@ -11,5 +12,8 @@ void write_report(const StudyFile& study, const std::vector<Member>& members, co
 
 /// A line of the scored table, with metric, value, limit, bound, pass, unit and source.
 Json score_json(const Score& score);
+
+/// The same as a row of a markdown table, with the study's name before it.
+std::string score_row(const std::string& name, const Score& score);
 
 }  // namespace undine::study

@@ -15,6 +15,7 @@
 #include "undine/app/study/report.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
+#include "undine/io/atomic_file.hpp"
 #include "undine/io/checksum.hpp"
 #include "undine/io/output_folder.hpp"
 
@@ -209,6 +210,17 @@ void print_table(const std::vector<Line>& lines) {
                                      : "NO");
 }
 
+/// The same for people who read it later.
+std::string markdown_of(const std::vector<Line>& lines, const VerifyOptions& options, const std::string& verdict) {
+  std::string command = options.quick ? "undine verify --quick" : "undine verify";
+  for (const std::string& name : options.names) command += " " + name;
+  std::string text = fmt::format("# Verification\n\n`{}`, Undine {}: {}. A line without a limit is only shown.\n\n",
+                                 command, program_version(), verdict);
+  text += "| case | metric | value | limit | pass | source of the limit |\n|---|---|---|---|---|---|\n";
+  for (const Line& line : lines) text += score_row(line.name, line.score);
+  return text;
+}
+
 }  // namespace
 
 int run_verify(const VerifyOptions& options) {
@@ -249,6 +261,8 @@ int run_verify(const VerifyOptions& options) {
     kept += line.score.limited() && line.score.pass();
   }
   write_json(out / "verify.json", array);
+  write_text_atomically(out / "verify.md",
+                        markdown_of(lines, options, fmt::format("{} of {} limits kept", kept, limits)));
   if (options.json) {
     fmt::print("{}", to_text(array));
   } else {

@@ -1,0 +1,60 @@
+#pragma once
+// Densities that are sums; included by flow.cpp alone.
+#include "undine/engine/reproducing_interpolation.hpp"
+#include "undine/schemes/flow.hpp"
+#include "undine/schemes/particle_rules.hpp"
+
+namespace undine {
+
+using namespace field;
+
+template <int N>
+void Flow<N>::add_summation_stages(DensityForm form, bool walls) {
+  summation_.template use<0>().sources = shepard_.template use<0>().sources = {true, walls};
+  if (form == DensityForm::summation) {
+    add_sweep(summation_, walls);
+    add_update("summed density", Group::fluid, rules::TakeSummedDensity{});
+  }
+  if (form != DensityForm::normalised) return;
+  // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
+  const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
+  Resources reads(Group::fluid, Fields<m, rho>::set() | place());
+  if (walls) reads.add(Group::wall, Fields<m>::set() | place());
+  // Walls that take their density from the fluid's, ghosts among them, have that of before too.
+  using walls::WallDensity;
+  const bool own = common_->wall_density == WallDensity::evolved || common_->wall_density == WallDensity::modified;
+  if (walls && own) reads.add(Group::wall, Fields<rho>::set());
+  plan_.add({"normalised density", reads, touched, [this] {
+               run(summation_);
+               run(shepard_);
+               update(store_, Group::fluid, rules::TakeNormalisedDensity{});
+             }});
+}
+
+/// The density that particles carry, summed anew over the fluid alone: a wall's answer is nothing that was carried.
+template <int N>
+void Flow<N>::filter_density() {
+  double every = 1;
+  int order = 0;
+  auto filter = *common_->density_filter;
+  filter.with_chosen([&](const auto& chosen) {
+    every = chosen.every;
+    order = chosen.order;
+  });
+  if (++steps_since_filter_ < every) return;
+  steps_since_filter_ = 0;
+  refresh_lists();
+  const SweepContext<N> run = context();
+  const InterpolationSource<N> source{store_, neighbours_, domain_,
+                                      run.kernels[static_cast<std::size_t>(KernelRole::density)], run.support};
+  auto density = store_.template get<rho>();
+  const std::size_t first = store_.range(Group::fluid).begin;
+  std::vector<double> summed(store_.range(Group::fluid).size());
+  for_each_particle(store_, Group::fluid,
+                    [&](std::size_t i) { summed[i - first] = reproduced_density(source, i, order); });
+  const double before = energies().total();
+  for_each_particle(store_, Group::fluid, [&](std::size_t i) { density[i] = summed[i - first]; });
+  ledger_.diffusion += before - energies().total();
+}
+
+}  // namespace undine
