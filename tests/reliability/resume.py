@@ -62,8 +62,7 @@ spacing = 0.05
 name = "gas"
 [scheme.wall]
 treatment = "ghost_free_slip"
-[scheme.smoothing]
-growth = 1.3
+guard = true
 [domain]
 low = [-0.5, -0.5]
 high = [1, 1]
@@ -105,6 +104,9 @@ GAUGE_KEYS = {
               'exact = "hydrostatic_incompressible"\nparameters = { surface = 0.2 }'],
 }
 
+# What a word of a list cannot do without in these cases.
+NEEDS = {"saalfeld": ["--set", "time.step=0.2 ms"]}  # its own step is too long for them
+
 
 def write(folder, form, label, more=""):
     path = os.path.join(folder, f"{label}.toml")
@@ -117,11 +119,16 @@ def takes(program, case, words):
     return undine(program, "check", case, *words, expect=None).returncode == 0
 
 
-def halves(program, folder, form, label, words, more=""):
-    """Runs the case whole on one thread, and in two parts, the first on two threads and the second on three."""
+def halves(program, folder, form, label, words, more="", may_go_bad=False):
+    """Runs the case whole on one thread, and in two parts, the first on two threads and the second on three. False where it goes bad, if
+    it may."""
     case = write(folder, form, label, more)
     whole, parts = os.path.join(folder, label + "_whole"), os.path.join(folder, label + "_parts")
-    undine(program, "run", case, "--out", whole, "--quiet", "--threads", "1", *words)
+    done = undine(program, "run", case, "--out", whole, "--quiet", "--threads", "1", *words, expect=None if may_go_bad else 0)
+    if done.returncode == 3:
+        return False
+    if done.returncode != 0:
+        sys.exit(f"{label}: exit {done.returncode}\n{done.stderr}")
     undine(program, "run", case, "--out", parts, "--quiet", "--threads", "2", *words, "--set", f"time.end={form.half} s")
     undine(program, "run", case, "--out", parts, "--quiet", "--threads", "3", "--resume", *words)
     last = [checkpoints(out)[-1] for out in (whole, parts)]
@@ -133,6 +140,7 @@ def halves(program, folder, form, label, words, more=""):
             f"{label}: {sums[0]} whole, {sums[1]} in parts, {step} steps, {len(files)} series, different: {other}")
     for out in (whole, parts):
         shutil.rmtree(out)
+    return True
 
 
 def names(program, axis):
@@ -142,14 +150,14 @@ def names(program, axis):
 def every(program, folder, axis, key, forms=None, more=(), words_of_list=None):
     """Each word of a list as the value of a key, in every form that takes it."""
     for word in words_of_list or names(program, axis):
-        words = [*more, "--set", f"{key}={word}"]
+        words = [*more, "--set", f"{key}={word}", *NEEDS.get(word, [])]
         taking = [form for form in forms or FORMS if takes(program, write(folder, form, "asked"), words)]
-        require(bool(taking), f"{axis} {word}: a case takes it: {[form.name for form in taking]}")
-        for form in taking:
-            halves(program, folder, form, f"{axis}_{word}_{form.name}", words)
+        well = [form.name for form in taking if halves(program, folder, form, f"{axis}_{word}_{form.name}", words, may_go_bad=True)]
+        require(bool(well), f"{axis} {word}: a case takes it and goes well: {well}")
 
 
-# The watchdog is off where a form may do badly in a case that it is not made for: the bits must be the same nevertheless.
+# The watchdog is off, as an entry may do badly in a case that it is not made for: the bits must be the same nevertheless, as long as they are
+# numbers.
 OFF = ("--set", "watchdog.active=false")
 
 

@@ -18,7 +18,7 @@ struct Interpolated {
 /// Where interpolation takes its values from; refers to the run, so it must not outlive it.
 template <int N>
 struct InterpolationSource {
-  const Store<N>& store;            ///< fields x, m, rho, v and p; h if the support says so; rho_0 of walls
+  const Store<N>& store;            ///< fields x, m, rho, v and p; h if the support says so; rho_0 of a liquid's walls
   const Neighbours<N>& neighbours;  ///< built for this store, not stale
   const Domain<N>& domain;
   KernelChoice kernel;
@@ -75,13 +75,14 @@ double fluid_share(const InterpolationSource<N>& source, const Vec<N>& x) {
 }
 
 /// The same of the walls' particles. V = m/rho_0, since the density of a wall particle is an answer to the fluid, not a
-/// volume.
+/// volume; of a gas, whose walls are its ghosts, m/rho.
 template <int N>
 double wall_share(const InterpolationSource<N>& source, const Vec<N>& x) {
   const auto m = source.store.template get<field::m>();
-  const auto rho_0 = source.store.template get<field::rho_0>();
+  const bool gas = source.store.fields()[static_cast<std::size_t>(field::e::id)];
+  const auto rest = gas ? source.store.template get<field::rho>() : source.store.template get<field::rho_0>();
   double sum = 0;
-  for_each_near(source, Group::wall, x, [&](std::size_t b, double W) { sum += m[b] / rho_0[b] * W; });
+  for_each_near(source, Group::wall, x, [&](std::size_t b, double W) { sum += m[b] / rest[b] * W; });
   return sum;
 }
 

@@ -96,6 +96,7 @@ void take_apart(Apart<N>& apart, const WeaklyCompressible<N>& flow) {
   const bool holds = options.wall_no_slip && options.viscosity;
   if (options.consistent()) {
     apart.template take_all<acc>(flow.consistent_force_sweep(), in_consistent_force);
+    apart.template take_all<acc_wall>(flow.consistent_force_sweep(), in_consistent_force);
     return;
   }
   typename WeaklyCompressibleSweeps<N>::WallForce force{"force part", Group::fluid};

@@ -1,6 +1,8 @@
 // Files that the HDF5 library accepts but whose objects are not what they should be: each is refused with an InputError
 // that names the object, before memory is taken for what it claims. Fuzzing (tests/fuzz) looks for more of them.
+#include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "io_test.hpp"
 #include "undine/io/checkpoint.hpp"
@@ -35,14 +37,16 @@ struct Shape {
 void put(hid_t file, const char* name, hid_t type, const Shape& shape, const void* values = nullptr) {
   const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   if (shape.chunked) {
-    const std::vector<hsize_t> chunk(shape.sizes.size(), 4);
+    std::vector<hsize_t> chunk;
+    for (const hsize_t size : shape.sizes) chunk.push_back(std::min<hsize_t>(size, 4));
     H5Pset_chunk(layout.get(), static_cast<int>(chunk.size()), chunk.data());
     H5Pset_deflate(layout.get(), 1);
   }
   const Handle space = space_of(shape.sizes);
   const Handle set(H5Dcreate2(file, name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT), H5Dclose);
   ASSERT_TRUE(set) << name;
-  if (values != nullptr) ASSERT_GE(H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), 0) << name;
+  if (values == nullptr) return;
+  ASSERT_GE(H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), 0) << name;
 }
 
 void put_attribute(hid_t file, const char* object, const char* name, hid_t type, const std::vector<hsize_t>& sizes,

@@ -335,7 +335,8 @@ TEST(Walls, TheDistanceFunctionActsOnceAStep) {
 }
 
 // Criterion: a normalised sum goes with every answer, also with those that come from the fluid's density, which then
-// see that of before: in a full vessel, a stirred one, it stays within 2 % of the density at rest for 20 steps.
+// see that of before: in a full vessel, a stirred one, it stays within 2 % of the density at rest for 20 steps, but for
+// walls of modified density, which draw it to theirs.
 TEST(Walls, OfEveryKindGoWithANormalisedDensity) {
   const Threads one(1);
   for_each_answer([](const std::string& name, auto change) {
@@ -352,8 +353,7 @@ TEST(Walls, OfEveryKindGoWithANormalisedDensity) {
     const IndexRange fluid = flow.store().range(Group::fluid);
     for (std::size_t i = fluid.begin; i < fluid.end; ++i)
       worst = std::max(worst, std::abs(flow.store().get<rho>()[i] / 1000 - 1));
-    if (name != "modified") EXPECT_LE(worst, 0.02) << name;
-    EXPECT_TRUE(std::isfinite(worst)) << name;
+    EXPECT_LE(worst, name == "modified" ? 0.5 : 0.02) << name;
   });
 }
 
