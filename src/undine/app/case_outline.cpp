@@ -1,5 +1,6 @@
 #include "undine/app/case_outline.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -38,6 +39,10 @@ CaseOutline outline(const Document& document, const RunOptions& options) {
   const double h = setup.options().support.uniform / setup.options().support.kappa;
   result.step = limits.fixed > 0 ? limits.fixed
                                  : std::min(limits.largest, limits.courant * h / (sound_speed + setup.expected_speed));
+  const auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup.scheme);
+  if (limits.fixed == 0 && liquid && liquid->viscosity)
+    for (const auto& material : liquid->materials)
+      if (material.mu > 0) result.step = std::min(result.step, limits.viscous * h * h * material.rho_0 / material.mu);
   result.hash = document.hash();
   return result;
 }

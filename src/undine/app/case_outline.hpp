@@ -13,7 +13,7 @@ struct CaseOutline {
   std::string hash;  ///< of every key that was read, with its value
   int dimensions = 3;
   double spacing = 0, support = 0;  ///< m
-  double end = 0, step = 0;         ///< s; the step is the fixed one, or what the Courant number allows at first
+  double end = 0, step = 0;         ///< s; the step is the fixed one, or what speeds and viscosity allow at first
   double fluid = 0, wall = 0;       ///< particles
   std::vector<std::pair<std::string, std::vector<SeriesColumn>>> series;  ///< "energies" and each gauge: its columns
   std::vector<std::string> warnings;

@@ -37,7 +37,7 @@ using nlohmann::ordered_json;
 /// A density that is made of two sums.
 struct NormalisedSummation {
   static constexpr Info info{"normalised_summation", "Density summed, over the Shepard sum of the same neighbours",
-                             "rho_a = sum_b m_b W_ab / sum_b (m_b/rho_b) W_ab",
+                             "rho_a = sum_b m_b W_ab / sum_b (m_b/rho_b) W_ab, rho_b the plain sum of b",
                              "Shepard (1968); Niedoba (2012), eq. 2.58"};
   using reads = Union<terms::Summation::reads, terms::ShepardSum::reads>;
   using adds = Union<terms::Summation::adds, terms::ShepardSum::adds>;

@@ -200,6 +200,7 @@ class Flow {
 
   std::shared_ptr<const FlowOptions<N>> common_;
   PairSweep<N, Use<terms::Summation>> summation_{"summation", Group::fluid};
+  PairSweep<N, Use<terms::Summation>> fluid_summation_{"summation over the fluid", Group::fluid};
   PairSweep<N, Use<terms::ShepardSum>> shepard_{"shepard sum", Group::fluid};
   std::vector<SweepNote> sweeps_;
   Vec<N> potential_origin_{};

@@ -10,23 +10,27 @@ using namespace field;
 
 template <int N>
 void Flow<N>::add_summation_stages(DensityForm form, bool walls) {
-  summation_.template use<0>().sources = shepard_.template use<0>().sources = {true, walls};
+  const bool walls_answer = walls && !ghosts_;
+  summation_.template use<0>().sources = {true, walls};
+  fluid_summation_.template use<0>().sources = shepard_.template use<0>().sources = {true, walls && !walls_answer};
   if (form == DensityForm::summation) {
     add_sweep(summation_, walls);
     add_update("summed density", Group::fluid, rules::TakeSummedDensity{});
   }
   if (form != DensityForm::normalised) return;
-  // The Shepard sum takes the volumes of the density before, so the three belong together and change rho in place.
+  // Volumes in the Shepard sum are those of the plain sum: with the densities of before compression would never be
+  // seen, as any uniform density reproduces itself. So they belong together and change rho in place. Walls complete the
+  // plain sum, but the mean is over the fluid alone, as their density is an answer to the fluid's. Ghosts are fluid:
+  // they follow in between, and take the new density afterwards.
   const Resources touched(Group::fluid, Fields<rho, rho_sum, w_sum>::set());
   Resources reads(Group::fluid, Fields<m, rho>::set() | place());
   if (walls) reads.add(Group::wall, Fields<m>::set() | place());
-  // Walls that take their density from the fluid's, ghosts among them, have that of before too.
-  using walls::WallDensity;
-  const bool own = common_->wall_density == WallDensity::evolved || common_->wall_density == WallDensity::modified;
-  if (walls && own) reads.add(Group::wall, Fields<rho>::set());
-  plan_.add({"normalised density", reads, touched, [this] {
+  plan_.add({"normalised density", reads, touched, [this, walls_answer] {
                run(summation_);
+               update(store_, Group::fluid, rules::TakeSummedDensity{});
+               if (ghosts_) ghosts_->mirror(store_, Fields<rho>::set());
                run(shepard_);
+               if (walls_answer) run(fluid_summation_);
                update(store_, Group::fluid, rules::TakeNormalisedDensity{});
              }});
 }
