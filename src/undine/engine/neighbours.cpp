@@ -74,7 +74,7 @@ void Neighbours<N>::choose_classes(std::span<const double> own_supports) {
     for (std::size_t i = 0; i < own_supports.size(); ++i) {
       const double radius = own_supports[i] * (1 + options_.skin), ratio = list_radius_ / radius;
       // What is not a number is as wide as the widest.
-      const int size = ratio >= 2 ? std::clamp(std::ilogb(ratio), 0, most_classes - 1) : 0;
+      const int size = ratio >= 1 ? std::clamp(std::ilogb(ratio * ratio), 0, most_classes - 1) : 0;
       radii_[i] = radius;
       class_of_[i] = static_cast<std::uint8_t>(size);
       part[size] = std::max(part[size], radius);
