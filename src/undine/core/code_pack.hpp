@@ -39,6 +39,8 @@ class CodePack {
   friend CodePack squares(const CodePack& a);
   /// Sum of 32-bit lanes.
   friend CodePack sum(const CodePack& a, const CodePack& b);
+  /// The larger of each two 32-bit lanes.
+  friend CodePack larger(const CodePack& a, const CodePack& b);
   /// Those of the `asked` bits k for which the number in lane k is below the limit.
   [[gnu::always_inline]] std::uint32_t below(const CodePack& limit, std::uint32_t asked) const;
 
@@ -65,6 +67,9 @@ class CodePack {
 [[gnu::always_inline]] inline CodePack sum(const CodePack& a, const CodePack& b) {
   return CodePack(_mm512_add_epi32(a.native_, b.native_), 0);
 }
+[[gnu::always_inline]] inline CodePack larger(const CodePack& a, const CodePack& b) {
+  return CodePack(_mm512_max_epi32(a.native_, b.native_), 0);
+}
 [[gnu::always_inline]] inline std::uint32_t CodePack::below(const CodePack& limit, std::uint32_t asked) const {
   return _mm512_mask_cmplt_epi32_mask(static_cast<__mmask16>(asked), native_, limit.native_);
 }
@@ -85,6 +90,9 @@ class CodePack {
 }
 [[gnu::always_inline]] inline CodePack sum(const CodePack& a, const CodePack& b) {
   return CodePack(_mm256_add_epi32(a.native_, b.native_), 0);
+}
+[[gnu::always_inline]] inline CodePack larger(const CodePack& a, const CodePack& b) {
+  return CodePack(_mm256_max_epi32(a.native_, b.native_), 0);
 }
 [[gnu::always_inline]] inline std::uint32_t CodePack::below(const CodePack& limit, std::uint32_t asked) const {
   const __m256i less = _mm256_cmpgt_epi32(limit.native_, native_);
@@ -107,6 +115,9 @@ class CodePack {
 }
 [[gnu::always_inline]] inline CodePack sum(const CodePack& a, const CodePack& b) {
   return CodePack(_mm_add_epi32(a.native_, b.native_), 0);
+}
+[[gnu::always_inline]] inline CodePack larger(const CodePack& a, const CodePack& b) {
+  return CodePack(_mm_max_epi32(a.native_, b.native_), 0);
 }
 [[gnu::always_inline]] inline std::uint32_t CodePack::below(const CodePack& limit, std::uint32_t asked) const {
   const __m128i less = _mm_cmplt_epi32(native_, limit.native_);
@@ -147,6 +158,9 @@ std::int32_t by_halves(F&& f) {
 }
 [[gnu::always_inline]] inline CodePack sum(const CodePack& a, const CodePack& b) {
   return CodePack(a.native_ + b.native_);
+}
+[[gnu::always_inline]] inline CodePack larger(const CodePack& a, const CodePack& b) {
+  return a.native_ < b.native_ ? b : a;
 }
 [[gnu::always_inline]] inline std::uint32_t CodePack::below(const CodePack& limit, std::uint32_t asked) const {
   return native_ < limit.native_ ? asked : 0;

@@ -45,16 +45,19 @@ struct PairTest {
   std::int32_t limit;    ///< a pair passes when the sum of squared differences of codes is less
   bool short_period;     ///< whether some period is so short that a candidate may be near by either side
   CodeWords<N> periods;  ///< then the short ones; 2^16 - 1 along other axes
+  /// Where particles have limits of their own, whole lines of them: the larger of a pair's counts.
+  const std::int32_t* limits = nullptr;
 
   /// How many more numbers than it finds `prune` may overwrite.
   static constexpr std::size_t padding = CodeLine::size;
 };
 
-/// Targets that share their candidates: the codes of `count` of them.
+/// Targets that share their candidates: the codes of `count` of them, and their limits where they have their own.
 template <int N>
 struct Targets {
   std::array<const std::int32_t*, code_words(N)> codes;
   std::size_t count;
+  const std::int32_t* limits = nullptr;
 };
 
 /// Runs cut to aligned registers: how long each run is would be mispredicted for each target, and loads across cache
@@ -101,17 +104,18 @@ class CandidateBlocks {
   Block blocks_[most];
 };
 
-template <bool short_period, int N>
+template <bool short_period, bool own_limits, int N>
 void prune_with(const PairTest<N>& test, const Targets<N>& targets, const Candidates<N>* runs, std::size_t run_count,
                 std::uint32_t* found, std::uint32_t* ends) {
   constexpr int words = code_words(N);
   const auto codes = test.codes;
-  const CodePack limit(test.limit);
+  CodePack limit(test.limit);
   CandidateBlocks<N> blocks(runs, run_count);
   const bool all_at_once = blocks.at_end();
   std::uint32_t* to = found;
   for (std::size_t t = 0; t < targets.count; ++t) {
     if (!all_at_once) blocks.restart();
+    if constexpr (own_limits) limit = CodePack(targets.limits[t]);
     for (; blocks.begin() != blocks.end(); blocks.more()) {
       CodePack at[words], period[words];
       for (int w = 0; w < words; ++w) {
@@ -129,7 +133,9 @@ void prune_with(const PairTest<N>& test, const Targets<N>& targets, const Candid
           }
           distance_sq = w == 0 ? squares(d) : sum(distance_sq, squares(d));
         }
-        to += write_bits<CodePack::lanes>(to, block.first, distance_sq.below(limit, block.bits));
+        CodePack of_pair = limit;
+        if constexpr (own_limits) of_pair = larger(limit, CodePack::load(test.limits + block.first));
+        to += write_bits<CodePack::lanes>(to, block.first, distance_sq.below(of_pair, block.bits));
       }
       if (blocks.at_end()) break;
     }
@@ -143,11 +149,9 @@ void prune_with(const PairTest<N>& test, const Targets<N>& targets, const Candid
 template <int N>
 void prune(const PairTest<N>& test, const Targets<N>& targets, const Candidates<N>* runs, std::size_t run_count,
            std::uint32_t* found, std::uint32_t* ends) {
-  if (test.short_period) {
-    prune_with<true>(test, targets, runs, run_count, found, ends);
-  } else {
-    prune_with<false>(test, targets, runs, run_count, found, ends);
-  }
+  const auto chosen = test.limits ? (test.short_period ? prune_with<true, true, N> : prune_with<false, true, N>)
+                                  : (test.short_period ? prune_with<true, false, N> : prune_with<false, false, N>);
+  chosen(test, targets, runs, run_count, found, ends);
 }
 
 /// `prune` for one dimension, compiled for one instruction set.

@@ -19,10 +19,11 @@ void ListCodes<N>::choose_unit(const Box<N>& box, double list_radius, const Doma
     far = std::max({far, std::abs(low), std::abs(high)});
   }
   // Far from the origin positions themselves are rounded. Beyond 2^33 units that is no use any more.
-  const double off = std::sqrt(off_sq) * (1 + 1e-6) + std::min(0x1p-50 * far * per_unit_, 0.125 * units_per_radius);
-  const double radius = units_per_radius + off;
-  limit_ = static_cast<std::int64_t>(sq(radius)) + 1;
-  search_radius_ = (radius + off + 1e-3) * unit;
+  off_ = std::sqrt(off_sq) * (1 + 1e-6) + std::min(0x1p-50 * far * per_unit_, 0.125 * units_per_radius);
+  const double radius = units_per_radius + off_;
+  limit_ = limit_of(radius);
+  search_radius_ = (radius + off_ + 1e-3) * unit;
+  own_limits_.clear();
 }
 
 template <int N>
@@ -36,10 +37,20 @@ void ListCodes<N>::encode(std::span<const Vec<N>> points) {
 }
 
 template <int N>
+void ListCodes<N>::encode_radii(std::span<const double> radii) {
+  own_limits_.resize((radii.size() + CodeLine::size - 1) / CodeLine::size);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    own_limits_[i / CodeLine::size].words[i % CodeLine::size] =
+        static_cast<std::int32_t>(limit_of(units_of(radii[i]) + off_));
+}
+
+template <int N>
 PairTest<N> ListCodes<N>::test(const Vec<N, bool>& short_period) const {
   PairTest<N> test{};
   for (int w = 0; w < code_words(N); ++w) test.codes[w] = words_[w].empty() ? nullptr : words_[w].front().words;
-  test.limit = static_cast<std::int32_t>(limit_);
+  test.limit = limit();
+  test.limits = own_limits();
   for (int k = 0; k < 2 * code_words(N); ++k) {
     const bool is_short = k < N && short_period[std::min(k, N - 1)];
     test.short_period = test.short_period || is_short;

@@ -2,22 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "undine/core/stopwatch.hpp"
+#include "undine/engine/neighbour_finders.hpp"
 
 namespace undine {
 namespace {
 
+using field::h_list;
 using field::x_list;
-
-/// The one place that says which instruction set prunes.
-template <int N>
-Prune<N> pruning(InstructionSet instructions) {
-  return with_instructions(instructions, []<class Tag>() { return prune_table<Tag>().template in<N>(); });
-}
 
 double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -28,139 +25,6 @@ bool interact(Group target, Group source) { return target != Group::wall || sour
 
 }  // namespace
 
-/// Finds the sources of targets by the cells that both lie in. Targets of one cell, which mostly follow each other,
-/// share the candidates.
-template <int N>
-class Neighbours<N>::CellFinder {
- public:
-  CellFinder(const Neighbours& all, Group target, Group source, const Store<N>& store,
-             std::vector<Candidates<N>> work = {})
-      : all_(all),
-        pencils_(all.pencils_[static_cast<int>(source)]),
-        x_(store.template get<x_list>()),
-        first_target_(store.range(target).begin),
-        first_source_(static_cast<std::uint32_t>(store.range(source).begin)),
-        prune_(pruning<N>(all.options_.instructions)),
-        runs_(std::move(work)) {}
-  /// The work space back, for the next finder.
-  std::vector<Candidates<N>> release() { return std::move(runs_); }
-
-  std::size_t batch(std::size_t target, std::size_t last) {
-    const std::size_t i = first_target_ + target;
-    const auto cell = all_.frame_.cell_of(x_[i]);
-    collect(cell);
-    at_ = x_[i];
-    for (int w = 0; w < code_words(N); ++w) targets_.codes[w] = all_.test_.codes[w] + i;
-    targets_.count = 1;
-    if (all_.far_apart_) return 1;
-    while (target + targets_.count < last && targets_.count * candidates_ < largest_batch &&
-           all_.frame_.cell_of(x_[i + targets_.count]) == cell)
-      ++targets_.count;
-    return targets_.count;
-  }
-  /// One target that is no particle.
-  void at(const Vec<N>& x) {
-    collect(all_.frame_.cell_of(x));
-    at_ = x;
-    words_ = all_.codes_.words(x);
-    for (int w = 0; w < code_words(N); ++w) targets_.codes[w] = &words_[w];
-    targets_.count = 1;
-  }
-  std::size_t room() const { return targets_.count * candidates_ + PairTest<N>::padding; }
-  void find(std::uint32_t* to, std::uint32_t* ends) const {
-    if (!all_.far_apart_) return prune_(all_.test_, targets_, runs_.data(), runs_.size(), to, ends);
-    const auto* const first = to;
-    for (const auto& run : runs_)
-      for (std::uint32_t j = run.begin; j < run.end; ++j)
-        if (all_.codes_.near(at_, x_[j])) *to++ = j;
-    ends[0] = static_cast<std::uint32_t>(to - first);
-  }
-
- private:
-  using Cell = typename CellFrame<N>::Cell;
-  static constexpr std::size_t largest_batch = 1 << 16;  ///< numbers
-
-  void collect(const Cell& cell) {
-    runs_.clear();
-    candidates_ = 0;
-    pencils_.for_each_run_of(cell, all_.reach_,
-                             [&](std::uint32_t begin, std::uint32_t end, const Cell& image, bool coarse) {
-                               if (coarse && !all_.far_apart_) {
-                                 collect_one_by_one(cell, begin + first_source_, end + first_source_, image);
-                               } else {
-                                 append(begin + first_source_, end + first_source_, all_.codes_.image_words(image));
-                               }
-                             });
-  }
-  /// Those of a run that are within reach along the first axis.
-  void collect_one_by_one(const Cell& cell, std::uint32_t begin, std::uint32_t end, Cell image) {
-    for (std::uint32_t j = begin; j < end; ++j) {
-      int apart = all_.frame_.cell_of(x_[j])[0] - cell[0];
-      image[0] = 0;
-      if (all_.domain_.periodic[0] && std::abs(apart) > all_.reach_[0]) {
-        image[0] = apart > 0 ? -1 : 1;
-        apart += image[0] * all_.frame_.cells(0);
-      }
-      if (std::abs(apart) <= all_.reach_[0]) append(j, j + 1, all_.codes_.image_words(image));
-    }
-  }
-  void append(std::uint32_t begin, std::uint32_t end, const CodeWords<N>& image) {
-    candidates_ += end - begin;
-    if (!runs_.empty() && runs_.back().end == begin && runs_.back().image == image) {
-      runs_.back().end = end;
-    } else {
-      runs_.push_back({begin, end, image});
-    }
-  }
-
-  const Neighbours& all_;
-  const Pencils<N>& pencils_;
-  std::span<const Vec<N>> x_;
-  std::size_t first_target_;
-  std::uint32_t first_source_;
-  Prune<N> prune_;
-  Targets<N> targets_;
-  CodeWords<N> words_;
-  Vec<N> at_;
-  std::size_t candidates_ = 0;
-  std::vector<Candidates<N>> runs_;
-};
-
-/// Asks the named search, and decides by the same test.
-template <int N>
-class Neighbours<N>::SearchFinder {
- public:
-  SearchFinder(const Neighbours& all, Group target, Group source, const Store<N>& store)
-      : all_(all),
-        search_(*all.searches_[static_cast<int>(source)]),
-        x_(store.template get<x_list>()),
-        first_target_(store.range(target).begin),
-        first_source_(static_cast<std::uint32_t>(store.range(source).begin)) {}
-
-  std::size_t batch(std::size_t target, std::size_t) {
-    at(x_[first_target_ + target]);
-    return 1;
-  }
-  void at(const Vec<N>& x) {
-    search_.find(x, all_.codes_.search_radius(), found_);
-    for (auto& j : found_) j += first_source_;
-    std::erase_if(found_, [&](auto j) { return !all_.codes_.near(x, x_[j]); });
-  }
-  std::size_t room() const { return found_.size(); }
-  void find(std::uint32_t* to, std::uint32_t* ends) const {
-    std::ranges::copy(found_, to);
-    ends[0] = static_cast<std::uint32_t>(found_.size());
-  }
-
- private:
-  const Neighbours& all_;
-  const NeighbourSearch<N>& search_;
-  std::span<const Vec<N>> x_;
-  std::size_t first_target_;
-  std::uint32_t first_source_;
-  std::vector<std::uint32_t> found_;
-};
-
 template <int N>
 template <class F>
 decltype(auto) Neighbours<N>::with_finder(Group target, Group source, const Store<N>& store, F&& f) const {
@@ -170,19 +34,59 @@ decltype(auto) Neighbours<N>::with_finder(Group target, Group source, const Stor
 
 template <int N>
 Neighbours<N>::Neighbours(const Domain<N>& domain, Options options) : domain_(domain), options_(std::move(options)) {
-  for (auto& search : searches_) search = make_search<N>(options_.search);
+  for (auto& parts : parts_) {
+    parts.resize(1);
+    parts.front().search = make_search<N>(options_.search);
+  }
 }
 
+/// What follows from supports and from the box around all particles; `own_supports` is empty where they have none.
 template <int N>
-void Neighbours<N>::start(double support, const Box<N>& box, std::size_t particles) {
+void Neighbours<N>::start(double support, const Box<N>& box, std::span<const double> own_supports,
+                          std::size_t particles) {
   support_ = support;
   list_radius_ = support * (1 + options_.skin);
   codes_.choose_unit(box, list_radius_, domain_);
-  frame_ = CellFrame<N>(box, particles, codes_.search_radius(), domain_);
-  reach_ = frame_.reach(codes_.search_radius());
-  far_apart_ = frame_.cells(0) > 1 << 29;
-  for (int k = 1; k < N; ++k) far_apart_ = far_apart_ || frame_.width(k) > 1.6 * codes_.search_radius();
+  choose_classes(own_supports);
   ask_search_ = options_.lists == Lists::plain || options_.search != "cell_grid";
+  far_apart_ = false;
+  for (SizeClass& size : classes_) {
+    size.frame = CellFrame<N>(box, particles, size.search_radius, domain_);
+    size.reach.clear();
+    for (const SizeClass& target : classes_)
+      size.reach.push_back(size.frame.reach(std::max(size.search_radius, target.search_radius)));
+    far_apart_ = far_apart_ || size.frame.cells(0) > 1 << 29;
+    for (int k = 1; k < N; ++k) far_apart_ = far_apart_ || size.frame.width(k) > 1.6 * codes_.search_radius();
+  }
+  for (auto& parts : parts_) parts.resize(classes_.size());
+}
+
+/// Particles are in one class whose list radii are between the same powers of two of the largest.
+template <int N>
+void Neighbours<N>::choose_classes(std::span<const double> own_supports) {
+  radii_.resize(own_supports.size());
+  class_of_.resize(own_supports.size());
+  std::array<double, most_classes> widest{};
+#pragma omp parallel
+  {
+    std::array<double, most_classes> part{};
+#pragma omp for schedule(static) nowait
+    for (std::size_t i = 0; i < own_supports.size(); ++i) {
+      const double radius = own_supports[i] * (1 + options_.skin), ratio = list_radius_ / radius;
+      // What is not a number is as wide as the widest.
+      const int size = ratio >= 1 ? std::clamp(std::ilogb(ratio * ratio), 0, most_classes - 1) : 0;
+      radii_[i] = radius;
+      class_of_[i] = static_cast<std::uint8_t>(size);
+      part[size] = std::max(part[size], radius);
+    }
+#pragma omp critical(undine_size_classes)
+    for (int k = 0; k < most_classes; ++k) widest[k] = std::max(widest[k], part[k]);
+  }
+  std::size_t count = most_classes;
+  while (count > 1 && !(widest[count - 1] > 0)) --count;
+  classes_.resize(count);
+  for (std::size_t k = 0; k < count; ++k)
+    classes_[k].search_radius = k == 0 ? codes_.search_radius() : codes_.search_radius(widest[k]);
 }
 
 template <int N>
@@ -193,13 +97,48 @@ void Neighbours<N>::sort_by_space(Store<N>& store) {
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < x.size(); ++i)
     if (periodic) x[i] = domain_.wrapped(x[i]);
-  start(support_, box_around<N>(x), store.size());
-  for (const Group group : all_groups) {
-    const IndexRange r = store.range(group);
-    auto& pencils = pencils_[static_cast<int>(group)];
-    pencils.build(frame_, x.subspan(r.begin, r.size()), store.ids().subspan(r.begin, r.size()), store.workspace());
-    if (!pencils.in_order()) store.permute(group, pencils.order());
+  const auto own = [&]() -> std::span<const double> {
+    if (!options_.own_supports) return {};
+    return store.template get<field::h>();
+  };
+  start(support_, box_around<N>(x), own(), store.size());
+  for (const Group group : all_groups) sort_group(store, group);
+  if (options_.own_supports) choose_classes(own());  // the same, in the order that particles have now
+}
+
+/// By class, then by cell, then by id.
+template <int N>
+void Neighbours<N>::sort_group(Store<N>& store, Group group) {
+  const IndexRange r = store.range(group);
+  const std::span<const Vec<N>> x = store.template get<field::x>();
+  const std::span<const std::int64_t> ids = store.ids();
+  auto& parts = parts_[static_cast<int>(group)];
+  if (classes_.size() == 1) {
+    Part& part = parts.front();
+    part.range = r;
+    part.pencils.build(classes_.front().frame, x.subspan(r.begin, r.size()), ids.subspan(r.begin, r.size()),
+                       store.workspace());
+    if (!part.pencils.in_order()) store.permute(group, part.pencils.order());
+    return;
   }
+  std::vector<std::uint32_t> order, members;
+  std::vector<Vec<N>> places;
+  std::vector<std::int64_t> names;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    members.clear();
+    places.clear();
+    names.clear();
+    for (std::size_t i = r.begin; i < r.end; ++i) {
+      if (class_of_[i] != k) continue;
+      members.push_back(static_cast<std::uint32_t>(i - r.begin));
+      places.push_back(x[i]);
+      names.push_back(ids[i]);
+    }
+    parts[k].range = {r.begin + order.size(), r.begin + order.size() + members.size()};
+    parts[k].pencils.build(classes_[k].frame, places, names, store.workspace());
+    for (const std::uint32_t place : parts[k].pencils.order()) order.push_back(members[place]);
+  }
+  if (!std::ranges::is_sorted(order)) store.permute(group, order);
 }
 
 template <int N>
@@ -210,21 +149,55 @@ void Neighbours<N>::build(Store<N>& store, double support) {
   const auto x_old = store.template get<x_list>();
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < x.size(); ++i) x_old[i] = x[i];
+  if (options_.own_supports) std::ranges::copy(store.template get<field::h>(), store.template get<h_list>().begin());
   build_lists(store);
 }
 
 template <int N>
 void Neighbours<N>::rebuild_from_list_positions(Store<N>& store, double support) {
   const std::span<const Vec<N>> x = store.template get<x_list>();
-  start(support, box_around(x), store.size());
-  for (const Group group : all_groups) {
-    const IndexRange r = store.range(group);
-    auto& pencils = pencils_[static_cast<int>(group)];
-    pencils.build(frame_, x.subspan(r.begin, r.size()), store.ids().subspan(r.begin, r.size()), store.workspace());
+  start(support, box_around(x), options_.own_supports ? store.template get<h_list>() : std::span<double>{},
+        store.size());
+  bool in_order = true;
+  for (const Group group : all_groups) in_order = take_order(store, group) && in_order;
+  if (!in_order) {
     // Written by a version that sorted otherwise: the cells do not fit the order, but any search does.
-    ask_search_ = ask_search_ || !pencils.in_order();
+    join_classes(store);
+    ask_search_ = true;
   }
   build_lists(store);
+}
+
+/// Takes the particles as they lie; whether that is in order.
+template <int N>
+bool Neighbours<N>::take_order(Store<N>& store, Group group) {
+  const IndexRange r = store.range(group);
+  const std::span<const Vec<N>> x = store.template get<x_list>();
+  const std::span<const std::int64_t> ids = store.ids();
+  bool in_order = true;
+  std::size_t at = r.begin;
+  for (std::size_t k = 0; k < classes_.size(); ++k) {
+    Part& part = parts_[static_cast<int>(group)][k];
+    part.range.begin = at;
+    while (at < r.end && class_of(at) == k) ++at;
+    part.range.end = at;
+    const std::size_t count = part.range.size();
+    part.pencils.build(classes_[k].frame, x.subspan(part.range.begin, count), ids.subspan(part.range.begin, count),
+                       store.workspace());
+    in_order = in_order && part.pencils.in_order();
+  }
+  return in_order && at == r.end;
+}
+
+/// One class for all, as wide as the widest.
+template <int N>
+void Neighbours<N>::join_classes(const Store<N>& store) {
+  classes_.resize(1);
+  for (const Group group : all_groups) {
+    auto& parts = parts_[static_cast<int>(group)];
+    parts.resize(1);
+    parts.front().range = store.range(group);
+  }
 }
 
 template <int N>
@@ -233,14 +206,13 @@ void Neighbours<N>::build_lists(const Store<N>& store) {
   ++builds_;
   const auto x = store.template get<x_list>();
   codes_.encode(x);
-  Vec<N, bool> either_side;
-  for (int k = 0; k < N; ++k) either_side[k] = frame_.either_side(k, reach_[k]);
+  if (options_.own_supports) codes_.encode_radii(radii_);
+  Vec<N, bool> either_side{};
+  for (const SizeClass& size : classes_)
+    for (const Cell& reach : size.reach)
+      for (int k = 0; k < N; ++k) either_side[k] = either_side[k] || size.frame.either_side(k, reach[k]);
   test_ = codes_.test(either_side);
-  if (ask_search_)
-    for (const Group group : all_groups) {
-      const IndexRange r = store.range(group);
-      searches_[static_cast<int>(group)]->build(x.subspan(r.begin, r.size()), codes_.search_radius(), domain_);
-    }
+  if (ask_search_) build_searches(x);
   stored_ = options_.lists == Lists::stored;
   if (options_.lists == Lists::automatic) {
     list_bytes_needed_ = estimated_list_bytes(store);
@@ -253,6 +225,15 @@ void Neighbours<N>::build_lists(const Store<N>& store) {
       if (!stored_ || !interact(target, source)) continue;
       with_finder(target, source, store,
                   [&](auto make_finder) { filled.fill(store.range(target).size(), make_finder); });
+    }
+}
+
+template <int N>
+void Neighbours<N>::build_searches(std::span<const Vec<N>> x) {
+  for (auto& parts : parts_)
+    for (Part& part : parts) {
+      if (!part.search) part.search = make_search<N>(options_.search);
+      part.search->build(x.subspan(part.range.begin, part.range.size()), codes_.search_radius(), domain_);
     }
 }
 
@@ -284,12 +265,34 @@ bool Neighbours<N>::stale(const Store<N>& store, double support) const {
   const auto x = store.template get<field::x>();
   const auto x_old = store.template get<x_list>();
   const double allowed = 0.5 * (list_radius_ - support);
-  if (list_radius_ <= 0 || allowed < 0) return true;
+  if (list_radius_ <= 0) return true;
+  if (options_.own_supports) return own_stale(store);
+  if (allowed < 0) return true;
   bool moved = false;
 #pragma omp parallel for reduction(|| : moved) schedule(static)
   for (std::size_t i = 0; i < x.size(); ++i)  // written so that a position that is not a number counts as moved
     moved = moved || !(norm_sq(domain_.nearest_image(x[i] - x_old[i])) <= sq(allowed));
   return moved;
+}
+
+/// Let mu be the largest |dx_a|/H_a and gamma the largest growth dH_a/H_a, H_a being those of the build, and H_a >=
+/// H_b. A pair that is not on the lists had r >= (1 + skin) H_a. It now has r >= (1 + skin - 2 mu) H_a, which reaches
+/// beyond (1 + gamma) H_a, hence beyond both supports, as long as 2 mu + gamma <= skin.
+template <int N>
+bool Neighbours<N>::own_stale(const Store<N>& store) const {
+  const auto x = store.template get<field::x>(), x_old = store.template get<x_list>();
+  const auto h = store.template get<field::h>(), h_old = store.template get<h_list>();
+  double moved = 0, grown = 0;
+  bool finite = true;
+#pragma omp parallel for reduction(max : moved, grown) reduction(&& : finite) schedule(static)
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double move_sq = norm_sq(domain_.nearest_image(x[i] - x_old[i])) / sq(h_old[i]);
+    const double growth = h[i] / h_old[i] - 1;
+    moved = std::max(moved, move_sq);
+    grown = std::max(grown, growth);
+    finite = finite && std::isfinite(move_sq) && std::isfinite(growth);
+  }
+  return !finite || !(2 * std::sqrt(moved) + grown <= options_.skin);
 }
 
 template <int N>
@@ -358,8 +361,13 @@ std::string Neighbours<N>::describe() const {
     return fmt::format("list-free: lists would need {:.1f} GB of {:.1f} GB allowed", list_bytes_needed_ / GB,
                        list_bytes_allowed() / GB);
   std::size_t targets = 0;
-  for (const auto& pencils : pencils_) targets += pencils.order().size();
-  const std::size_t fluid = pencils_[static_cast<int>(Group::fluid)].order().size();
+  const auto count = [&](Group group) {
+    std::size_t n = 0;
+    for (const Part& part : parts_[static_cast<int>(group)]) n += part.range.size();
+    return n;
+  };
+  for (const Group group : all_groups) targets += count(group);
+  const std::size_t fluid = count(Group::fluid);
   return fmt::format("stored lists, {:.0f} neighbours, {:.0f} bytes per particle",
                      static_cast<double>(pair_count(Group::fluid, Group::fluid)) /
                          static_cast<double>(std::max<std::size_t>(fluid, 1)),
@@ -369,10 +377,9 @@ std::string Neighbours<N>::describe() const {
 template <int N>
 std::size_t Neighbours<N>::bytes() const {
   std::size_t total = codes_.bytes();
-  for (const auto& pencils : pencils_) total += pencils.bytes();
-  if (ask_search_)
-    for (const auto& search : searches_) total += search->bytes();
-  return total + list_bytes();
+  for (const auto& parts : parts_)
+    for (const Part& part : parts) total += part.pencils.bytes() + (ask_search_ ? part.search->bytes() : 0);
+  return total + radii_.capacity() * sizeof(double) + class_of_.capacity() + list_bytes();
 }
 
 template <int N>

@@ -123,7 +123,8 @@ class PairSweep {
     for_each_in(adds(), [&](int f) {
       const int n = all_fields[f].components(N);
       auto data = context.store.raw(f).subspan(targets.begin * n, targets.size() * n);
-      std::fill(data.begin(), data.end(), std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t k = 0; k < data.size(); ++k)
+        if (context.wants(k / n)) data[k] = std::numeric_limits<double>::quiet_NaN();
     });
     for (const Group group : all_groups)
       if (group == target_ || takes_from(group))

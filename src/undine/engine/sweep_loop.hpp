@@ -149,6 +149,7 @@ class SweepLoop {
     const FieldSet added = adds_in_use(uses_);
     const std::size_t begin = store.range(task.target).begin;
     for (std::size_t target = some.begin; target < some.end; ++target) {
+      if (!context_.wants(target)) continue;
       const std::size_t a = begin + target;
       BookRow book{};
       if (task.booking == Booking::on) {

@@ -14,11 +14,22 @@ namespace undine {
 
 using namespace field;
 
+namespace {
+
+template <int N>
+typename Neighbours<N>::Options list_options(const FlowOptions<N>& options) {
+  auto lists = options.neighbours;
+  lists.own_supports = options.supports_vary();
+  return lists;
+}
+
+}  // namespace
+
 template <int N>
 Flow<N>::Flow(Store<N> store, const Domain<N>& domain, std::shared_ptr<const FlowOptions<N>> options)
     : store_(std::move(store)),
       domain_(domain),
-      neighbours_(domain_, options->neighbours),
+      neighbours_(domain_, list_options(*options)),
       common_(std::move(options)) {
   if (common_->mirrors) ghosts_.emplace(common_->mirrors, domain_);
 }
@@ -61,6 +72,7 @@ void Flow<N>::finish_plan(const PlanFields& fields) {
   Resources given = fields.at_rest;
   for (const Group g : all_groups) given.add(g, fields.given);
   FieldSet used = fields.given | fields.used;
+  if (common_->supports_vary()) used |= Fields<h_list>::set();
   for (const auto& stage : plan_.stages()) used |= stage.reads.fields() | stage.writes.fields();
   // A run that goes on also has what integrators keep of a step.
   store_.keep(used | common_->kept | fields.kept);

@@ -156,10 +156,13 @@ class Flow {
   /// Allocates what the stages use, and puts them into order.
   void finish_plan(const PlanFields& fields);
 
+  /// Runs a sweep, for the targets that are `wanted` if not for all.
   template <class Sweep>
-  void run(Sweep& sweep) {
+  void run(Sweep& sweep, std::span<const char> wanted = {}) {
     const Stopwatch watch(seconds_sweeps_);
-    sweep.run(context(), common_->backend);
+    auto all = context();
+    all.wanted = wanted;
+    sweep.run(all, common_->backend);
   }
   SweepContext<N> context();
   void refresh_lists();

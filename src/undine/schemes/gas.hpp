@@ -51,6 +51,12 @@ class Gas : public Flow<N> {
   using Sweeps = GasSweeps<N>;
   using Shared = WeaklyCompressibleSweeps<N>;
 
+  /// Of each particle on the way to its H: what is known to hold the solution, and whether it is still to be found.
+  struct SupportSearch {
+    std::vector<Vec<2>> brackets;
+    std::vector<char> open;
+  };
+
   Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options);
   void prepare() override;
   std::vector<double*> remembered() override;
@@ -60,8 +66,9 @@ class Gas : public Flow<N> {
   void add_density_stages();
   void add_gradient_stages();
   void add_ghost_stage(const char* name, const FieldSet& fields);
+  void foresee_supports(double dt);
   void find_supports();
-  bool adapt_supports(std::vector<Vec<2>>& brackets);
+  bool adapt_supports(SupportSearch& search);
   [[noreturn]] void no_support_found() const;
   void check_state() const;
 

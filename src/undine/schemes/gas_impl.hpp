@@ -135,15 +135,17 @@ void Gas<N>::add_ghost_stage(const char* name, const FieldSet& fields) {
 template <int N>
 void Gas<N>::find_supports() {
   constexpr int most_rounds = 100;
-  std::vector<Vec<2>> brackets;
+  SupportSearch search;
   long builds = -1;
   for (int round = 0; round < most_rounds; ++round) {
     if (this->list_builds() != builds) {  // particles were sorted: begin anew
-      brackets.assign(store_.range(Group::fluid).size(), Vec<2>{{0, std::numeric_limits<double>::max()}});
+      const std::size_t count = store_.range(Group::fluid).size();
+      search.brackets.assign(count, Vec<2>{{0, std::numeric_limits<double>::max()}});
+      search.open.assign(count, 1);
       builds = this->list_builds();
     }
-    this->run(density_);
-    if (!adapt_supports(brackets)) {
+    this->run(density_, search.open);  // a sum sees no H but the target's own: those that were found stay
+    if (!adapt_supports(search)) {
       const auto H = store_.template get<h>();
       const auto sum = store_.template get<rho_sum>(), slope = store_.template get<rho_sum_h>();
       auto density = store_.template get<rho>(), factor = store_.template get<omega>();
@@ -163,7 +165,7 @@ void Gas<N>::find_supports() {
 /// One round of Newton's method with bisection where that would leave what is known to hold the solution. Whether some
 /// H changed.
 template <int N>
-bool Gas<N>::adapt_supports(std::vector<Vec<2>>& brackets) {
+bool Gas<N>::adapt_supports(SupportSearch& search) {
   const bool in_float =
       options_.backend.kind == BackendKind::threads && options_.backend.precision == PairPrecision::mixed;
   const double tolerance = in_float ? 3e-6 : 1e-11;
@@ -173,16 +175,20 @@ bool Gas<N>::adapt_supports(std::vector<Vec<2>>& brackets) {
   const auto mass = store_.template get<m>(), sum = store_.template get<rho_sum>(),
              slope = store_.template get<rho_sum_h>();
   const double changed = total_over(store_, Group::fluid, [&](std::size_t i) {
+    if (!search.open[i - first]) return 0.0;
     const terms::SupportState state{mass[i], H[i], sum[i], slope[i]};
     const double mismatch = terms::support_mismatch<N>(state, q);
-    Vec<2>& bracket = brackets[i - first];
+    Vec<2>& bracket = search.brackets[i - first];
     if (mismatch > 0) {
       bracket[1] = std::min(bracket[1], H[i]);
     } else {
       bracket[0] = std::max(bracket[0], H[i]);
     }
     // A kernel that jumps at its edge leaves a bracket without a solution.
-    if (std::abs(mismatch) <= tolerance || bracket[1] - bracket[0] <= 0.01 * tolerance * H[i]) return 0.0;
+    if (std::abs(mismatch) <= tolerance || bracket[1] - bracket[0] <= 0.01 * tolerance * H[i]) {
+      search.open[i - first] = 0;
+      return 0.0;
+    }
     const double next = terms::next_support<N>(state, q);
     H[i] = next > bracket[0] && next < bracket[1] ? next : std::sqrt(bracket[0] * bracket[1]);
     return 1.0;
@@ -243,9 +249,21 @@ void Gas<N>::kick(double dt) {
   for_each_particle(store_, Group::fluid, [&](std::size_t i) { energy[i] += dt * rate[i]; });
 }
 
+/// Where the search for H sets out from: dH/dt = H div v/N.
+template <int N>
+void Gas<N>::foresee_supports(double dt) {
+  if (!options_.iterates() || !options_.takes_velocity_gradient()) return;
+  auto H = store_.template get<h>();
+  const auto L = store_.template get<strain>();
+  for_each_particle(store_, Group::fluid, [&](std::size_t i) {
+    H[i] *= std::exp(std::clamp(dt * terms::divergence<N>(L[i]) / N, -0.1, 0.1));
+  });
+}
+
 /// Density by its rate, and H where it has a rate of its own: the mean density of the step makes that second order.
 template <int N>
 void Gas<N>::compress(double dt) {
+  foresee_supports(dt);
   if (!options_.takes_density_rate()) return;
   auto density = store_.template get<rho>(), H = store_.template get<h>();
   const auto rate = store_.template get<drho>();

@@ -391,7 +391,7 @@ TEST(GaugeSet, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint("type = \"front\"\n[[gauge]]\nname = \"a\"\ntype = \"front\"\n"), HasSubstr("two gauges"));
   EXPECT_THAT(complaint("type = \"front\"\n[[gauge]]\nname = \"../a\"\ntype = \"front\"\n"), HasSubstr("cannot name"));
   EXPECT_THAT(complaint("type = \"height\"\nat = [0]\nfrom = 0\nto = 0\n"), HasSubstr("case.toml:6"));
-  EXPECT_EQ(gauge_infos().size(), 13u);
+  EXPECT_EQ(gauge_infos().size(), 14u);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ std::int32_t random_word(Random& random) {
 
 /// The test as it is meant, number by number.
 template <int N>
-bool passes(const PairTest<N>& test, const CodeWords<N>& candidate, const CodeWords<N>& target) {
+bool passes(const PairTest<N>& test, const CodeWords<N>& candidate, const CodeWords<N>& target, std::int32_t limit) {
   std::int64_t sum = 0;
   for (int k = 0; k < N; ++k) {
     const auto half = [&](const CodeWords<N>& words) {
@@ -52,11 +52,11 @@ bool passes(const PairTest<N>& test, const CodeWords<N>& candidate, const CodeWo
     if (test.short_period) d = std::min(d, std::abs(static_cast<std::uint16_t>(half(test.periods)) - d));
     sum += d * d;
   }
-  return sum < test.limit;
+  return sum < limit;
 }
 
-/// Criterion: for runs of any length and place, with and without images and short periods, exactly the candidates that
-/// pass by the plain test, for every instruction set that this machine has.
+/// Criterion: for runs of any length and place, with and without images, short periods and limits of their own, exactly
+/// the candidates that pass by the plain test, for every instruction set that this machine has.
 template <int N>
 void prune_as_meant(InstructionSet set) {
   const auto prune = with_instructions(set, []<class Tag>() { return prune_table<Tag>().template in<N>(); });
@@ -69,7 +69,11 @@ void prune_as_meant(InstructionSet set) {
       codes[w].push_back(random_word(random) & (N % 2 && w == N / 2 ? 0xffff : -1));
     test.codes[w] = codes[w].data();
   }
+  AlignedVector<std::int32_t> limits;
+  for (std::size_t i = 0; i < particles; ++i) limits.push_back(static_cast<std::int32_t>(random.bits() % 100000000));
   for (int trial = 0; trial < 300; ++trial) {
+    const bool own = trial % 4 == 3;
+    test.limits = own ? limits.data() : nullptr;
     test.limit = static_cast<std::int32_t>(random.bits() % 100000000);
     test.short_period = trial % 3 == 2;
     for (int k = 0; k < 2 * code_words(N); ++k) {
@@ -90,6 +94,7 @@ void prune_as_meant(InstructionSet set) {
     Targets<N> targets;
     const std::size_t first = random.bits() % (particles - most_targets);
     for (int w = 0; w < code_words(N); ++w) targets.codes[w] = codes[w].data() + first;
+    targets.limits = own ? limits.data() + first : nullptr;
     targets.count = 1 + random.bits() % most_targets;
     std::vector<std::uint32_t> expected, expected_ends;
     for (std::size_t t = 0; t < targets.count; ++t) {
@@ -104,7 +109,8 @@ void prune_as_meant(InstructionSet set) {
             };
             target[w] = static_cast<std::int32_t>(half(0) | half(16));
           }
-          if (passes(test, candidate, target)) expected.push_back(j);
+          if (passes(test, candidate, target, own ? std::max(limits[first + t], limits[j]) : test.limit))
+            expected.push_back(j);
         }
       expected_ends.push_back(static_cast<std::uint32_t>(expected.size()));
     }

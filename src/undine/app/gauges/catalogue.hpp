@@ -10,6 +10,7 @@
 #include "undine/app/gauges/mixed_layer.hpp"
 #include "undine/app/gauges/probe.hpp"
 #include "undine/app/gauges/profile.hpp"
+#include "undine/app/gauges/shell.hpp"
 #include "undine/app/gauges/wall_force.hpp"
 #include "undine/app/gauges/wall_motion.hpp"
 
@@ -30,6 +31,7 @@ using GaugeTypes = Catalogue<  //
     CentreOfMass<N>,           //
     MixedLayer<N>,             //
     Profile<N>,                //
+    Shell<N>,                  //
     ErrorGauge<N>>;
 
 }  // namespace undine::gauges
