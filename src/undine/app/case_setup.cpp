@@ -265,11 +265,11 @@ class Reader {
     const Side wall_side = fluid_side == Side::inside ? Side::outside : Side::inside;
     check_size(table, shape, layers, wall_side);
     const double spacing = repels ? repelling_spacing() : setup_.spacing;
-    const double offset = repels && !shifted() ? 0 : 0.5 * setup_.spacing / spacing;
+    const double offset = repels && !shifted() ? 0 : 0.5;
     return with_place(table, [&] { return fill_shell(shape, {spacing, layers, wall_side, N, offset, open}); });
   }
 
-  /// Whether repulsive particles lie half a spacing behind the surface: Niedoba (2012), 3.3.
+  /// Whether repulsive particles lie half of their spacing behind the surface: Niedoba (2012), 3.3.
   bool shifted() const { return root_.table("scheme").table("wall").flag("shift", true); }
 
   /// How far apart particles that repel lie: closer than the fluid's they make a smoother wall.
@@ -288,7 +288,7 @@ class Reader {
     terms::Repulsion repulsion;
     repulsion.D = 2.5 * sq(setup_.expected_speed);
     // Fluid on the lattice begins half a spacing from the surface, where it is to feel nothing.
-    repulsion.r_0 = (shifted() ? 1 : 0.5) * setup_.spacing;
+    repulsion.r_0 = 0.5 * (setup_.spacing + (shifted() ? repelling_spacing() : 0));
     read_parameters(table, repulsion);
     const double H = setup_.options().support.uniform;
     if (!(repulsion.r_0 > 0 && repulsion.r_0 <= H))
