@@ -70,16 +70,17 @@ void read_dissipation(const Table& scheme, GasOptions<N>& options, SchemeChoice&
       }
     });
   }
-  if (const auto heat = read_optional<terms::Conductivities>(scheme.table("conductivity"), Preset::conductivity))
-    options.conductivity = heat->template get<terms::ConductivityPressure>();
+  options.conductivity = read_optional<terms::Conductivities>(scheme.table("conductivity"), Preset::conductivity);
   options.stress = read_optional<terms::StressForms>(scheme.table("viscosity"), "none");
 }
 
 /// Gas meets ghosts, particles that repel, or surfaces that reflect.
 template <int N>
 void check_walls(const Table& wall, const GasOptions<N>& options, const SchemeChoice& choice) {
-  const bool answers = options.wall_density != walls::WallDensity::none && !choice.ghosts;
-  if (answers || choice.wall_force == walls::WallForce::distance)
+  using walls::WallDensity;
+  const bool of_gas =
+      choice.ghosts || options.wall_density == WallDensity::none || options.wall_density == WallDensity::held;
+  if (!of_gas || choice.wall_force == walls::WallForce::distance)
     wall.fail("treatment", "this treatment of walls is for liquids",
               "it answers with a pressure that knows no internal energy",
               "take \"ghost_free_slip\", \"repulsive\" or \"elastic\"");
@@ -120,6 +121,8 @@ SchemeChoice read_gas(const Table& root, double spacing, GasOptions<N>& options,
   read_walls<N>(scheme, basics, options, choice);
   options.ghost_hydrostatic = false;
   options.wall_pulls = true;
+  if (choice.wall_force == walls::WallForce::repulsion && scheme.table("wall").flag("answers", false))
+    options.wall_density = walls::WallDensity::held;
   check_walls(scheme.table("wall"), options, choice);
   // How far H may grow where walls mirror the gas.
   choice.support_growth = smoothing.in_range("growth", unit::one, {1, 100}, 2.0);

@@ -264,12 +264,23 @@ class Reader {
           fmt::format("set layers = {}, leave it out, or say thin = true if this is meant", needed));
     const Side wall_side = fluid_side == Side::inside ? Side::outside : Side::inside;
     check_size(table, shape, layers, wall_side);
+    const double spacing = repels ? repelling_spacing() : setup_.spacing;
     const double offset = repels && !shifted() ? 0 : 0.5;
-    return with_place(table, [&] { return fill_shell(shape, {setup_.spacing, layers, wall_side, N, offset, open}); });
+    return with_place(table, [&] { return fill_shell(shape, {spacing, layers, wall_side, N, offset, open}); });
   }
 
-  /// Whether repulsive particles lie half a spacing behind the surface: Niedoba (2012), 3.3.
+  /// Whether repulsive particles lie half of their spacing behind the surface: Niedoba (2012), 3.3.
   bool shifted() const { return root_.table("scheme").table("wall").flag("shift", true); }
+
+  /// How far apart particles that repel lie: closer than the fluid's they make a smoother wall.
+  double repelling_spacing() const {
+    const Table wall = root_.table("scheme").table("wall");
+    const double spacing = wall.positive("spacing", unit::length, setup_.spacing);
+    if (spacing < 0.5 * (1 - 1e-9) * setup_.spacing || spacing > setup_.spacing * (1 + 1e-9))
+      wall.fail("spacing", fmt::format("particles that repel cannot lie {:.4g} m apart", spacing),
+                fmt::format("the case's spacing is {:.4g} m", setup_.spacing), "take half of that to all of it");
+    return spacing;
+  }
 
   /// Monaghan (1994) takes D = 5 g H, H the depth of the fluid; the expected speed is sqrt(2 g H).
   void read_repulsion() {
@@ -277,7 +288,7 @@ class Reader {
     terms::Repulsion repulsion;
     repulsion.D = 2.5 * sq(setup_.expected_speed);
     // Fluid on the lattice begins half a spacing from the surface, where it is to feel nothing.
-    repulsion.r_0 = (shifted() ? 1 : 0.5) * setup_.spacing;
+    repulsion.r_0 = 0.5 * (setup_.spacing + (shifted() ? repelling_spacing() : 0));
     read_parameters(table, repulsion);
     const double H = setup_.options().support.uniform;
     if (!(repulsion.r_0 > 0 && repulsion.r_0 <= H))
@@ -621,9 +632,24 @@ class Reader {
             material.density(material.rho_0 * std::max(0.0, strength * surface + dot(setup_.options().gravity, x[i])));
       const Body& body = bodies_[static_cast<std::size_t>(setup_.body_of_id[i])];
       if (!body.given.contains("rho")) store.template get<field::rho>()[i] = rest;
+      if (setup_.options().wall_density == walls::WallDensity::held) hold_gas(i, found);
       near_wall.find(x[i], H, found);
       store.template get<field::rho_wall>()[i] = wall_reference(material.rho_0, rest, wall_sum(i, found), lattice);
     }
+  }
+
+  /// Gives a wall particle the state of the gas nearest to it, among `near` of the fluid.
+  void hold_gas(std::size_t i, const std::vector<std::uint32_t>& near) {
+    auto& store = setup_.store;
+    const std::size_t first = store.range(Group::fluid).begin;
+    const auto x = store.template get<field::x>();
+    const auto far = [&](std::uint32_t j) { return norm_sq(setup_.domain.nearest_image(x[first + j] - x[i])); };
+    const auto nearest = std::ranges::min_element(near, {}, far);
+    if (nearest == near.end()) return;
+    const std::size_t gas = first + *nearest;
+    for (const int f : {field::rho::id, field::e::id, field::m::id, field::rho_0::id})
+      store.raw(f)[i] = store.raw(f)[gas];
+    store.materials()[i] = store.materials()[gas];
   }
 
   /// rho_wref of a modified-density wall particle. "auto": what fluid at rest on the wall lacks to `rest`, which is the

@@ -71,9 +71,12 @@ class Gas : public Flow<N> {
   bool adapt_supports(SupportSearch& search);
   [[noreturn]] void no_support_found() const;
   void check_state() const;
+  /// Whether walls are neighbours of the gas, beyond what they push.
+  bool answered() const { return mirrored_ || held_; }
 
   const Options& options_;
   bool mirrored_ = false;  ///< whether ghosts answer for the fluid
+  bool held_ = false;      ///< whether wall particles answer with a state that they keep
   ById<N> de_before_, e_start_, h_start_;
 
   typename Sweeps::Density density_{"density sum", Group::fluid};

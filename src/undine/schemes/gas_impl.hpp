@@ -32,6 +32,7 @@ template <int N>
 Gas<N>::Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options)
     : Flow<N>(std::move(store), domain, options), options_(*options) {
   mirrored_ = ghosts_.has_value();
+  held_ = options_.wall_density == WallDensity::held;
   configure();
   make_plan();
 }
@@ -39,13 +40,13 @@ Gas<N>::Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Optio
 /// Tells each sweep which of its terms are in use, and between which groups.
 template <int N>
 void Gas<N>::configure() {
-  const std::array<bool, group_count> from{true, mirrored_}, from_fluid{true, false};
+  const std::array<bool, group_count> from{true, answered()}, from_fluid{true, false};
   const typename Sweeps::Continuity continuity{rate_form(options_.density, options_.continuity)};
   const auto chosen = []<class Term>(const std::optional<Term>& term) { return term.value_or(Term{}); };
 
   density_.template use<0>() = {options_.grad_h, true, from, {}};
   rate_.template use<0>() = {continuity, true, from, {}};
-  foresight_.template use<0>() = {{}, true, from, {}};
+  foresight_.template use<0>() = {{}, true, {true, mirrored_}, {}};
   gradient_.template use<0>() = {{}, true, from, {}};
   const auto set = [&](auto& sweep, const std::array<bool, group_count>& sources, bool rates) {
     sweep.template use<Sweeps::pressure>() = {options_.pressure, true, sources, {}};
@@ -72,14 +73,16 @@ void Gas<N>::configure() {
 template <int N>
 void Gas<N>::make_plan() {
   add_density_stages();
-  this->add_update("equation of state", Group::fluid, rules::ApplyThermalEquationOfState{options_.materials});
+  const rules::ApplyThermalEquationOfState state{options_.materials};
+  this->add_update("equation of state", Group::fluid, state);
+  if (held_) this->add_update("equation of state of walls", Group::wall, state);
   // One where nothing computes them.
   FieldSet ones;
   if (!options_.iterates()) ones |= Fields<omega>::set();
   if (!(options_.artificial && options_.limiter)) ones |= Fields<balsara>::set();
   add_ghost_stage("ghosts' state", Fields<rho, p, c, e, omega, alpha_v>::set() | ones);
   add_gradient_stages();
-  this->add_sweep(force_, mirrored_);
+  this->add_sweep(force_, answered());
   if (options_.repulsion) this->add_sweep(push_, true);
   this->add_body_force_stage(options_.repulsion.has_value());
   if (options_.foresees()) {
@@ -87,21 +90,24 @@ void Gas<N>::make_plan() {
     this->add_sweep(foresight_, mirrored_);
   }
 
+  Resources at_rest(Group::fluid, ones);
+  // No friction: the stress in walls that answer stays 0.
+  if (held_) at_rest.add(Group::wall, Fields<omega, balsara, stress>::set());
   FieldSet given = Fields<x, v, m, rho, e, h, alpha_v, x_list>::set();
   if (options_.smoothing == SmoothingLaw::density) given |= Fields<rho_0>::set();
   if (options_.stress) given |= Fields<mu>::set();
   this->finish_plan({given, Fields<p, c, acc, de, drho, v_signal, omega, balsara>::set(),
-                     Fields<acc_old, x_start, v_start, rho_start>::set(), Resources(Group::fluid, ones)});
+                     Fields<acc_old, x_start, v_start, rho_start>::set(), at_rest});
   for (const int f : {omega::id, balsara::id})
-    if (ones[static_cast<std::size_t>(f)]) std::ranges::fill(store_.raw(f), 1.0);
+    if (held_ || ones[static_cast<std::size_t>(f)]) std::ranges::fill(store_.raw(f), 1.0);
 }
 
 template <int N>
 void Gas<N>::add_density_stages() {
-  this->add_summation_stages(options_.density, mirrored_);
+  this->add_summation_stages(options_.density, answered());
   if (!options_.iterates()) return;
   Resources reads(Group::fluid, Fields<x, m, h>::set());
-  if (mirrored_) reads.add(Group::wall, Fields<x, m>::set());
+  if (answered()) reads.add(Group::wall, Fields<x, m>::set());
   plan_.add({"density and support", reads, Resources(Group::fluid, Fields<h, rho, omega, rho_sum, rho_sum_h>::set()),
              [this] { find_supports(); }});
 }
@@ -110,7 +116,7 @@ void Gas<N>::add_density_stages() {
 template <int N>
 void Gas<N>::add_gradient_stages() {
   if (!options_.takes_velocity_gradient()) return;
-  this->add_sweep(gradient_, mirrored_);
+  this->add_sweep(gradient_, answered());
   FieldSet answer;
   if (options_.artificial && options_.limiter) {
     this->add_update("limiter", Group::fluid, rules::LimitViscosity<N>{options_.support.kappa});
@@ -130,8 +136,7 @@ void Gas<N>::add_ghost_stage(const char* name, const FieldSet& fields) {
              [this, fields] { ghosts_->mirror(store_, fields); }});
 }
 
-/// Density and support of every particle so that rho H^N = m q^N. Springel & Hernquist (2002), eq. 6; Price (2012), eq.
-/// 10.
+/// Density and support of every particle so that rho H^N = m q^N. Springel & Hernquist (2002); Price (2012).
 template <int N>
 void Gas<N>::find_supports() {
   constexpr int most_rounds = 100;
@@ -383,12 +388,12 @@ Energies Gas<N>::energies() const {
 
 template <int N>
 void Gas<N>::evaluate_wall_forces() {
-  if (mirrored_) this->run(wall_force_);
+  if (answered()) this->run(wall_force_);
   if (!options_.repulsion) return;
   this->run(pushed_back_);
   auto a = store_.template get<acc>();
   const auto push = store_.template get<acc_wall>();
-  for_each_particle(store_, Group::wall, [&](std::size_t i) { a[i] = push[i]; });
+  for_each_particle(store_, Group::wall, [&](std::size_t i) { a[i] = held_ ? a[i] + push[i] : push[i]; });
 }
 
 template <int N>

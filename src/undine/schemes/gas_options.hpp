@@ -17,7 +17,7 @@ struct GasOptions : FlowOptions<N> {
   std::optional<OneOf<terms::GasViscosities>> artificial;
   ChoiceOf<terms::ViscositySwitches> viscosity_switch;
   bool limiter = false;  ///< whether artificial viscosity fades where flow shears, by `balsara`
-  std::optional<terms::ConductivityPressure> conductivity;
+  std::optional<OneOf<terms::Conductivities>> conductivity;
   std::optional<OneOf<terms::StressForms>> stress;  ///< of a viscous gas
 
   bool iterates() const { return density == DensityForm::grad_h; }

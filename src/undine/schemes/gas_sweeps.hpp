@@ -22,7 +22,7 @@ struct GasSweeps {
                           Use<OneOf<terms::EnergyForms>, pr>,       //
                           Use<Continuity, pr>,                      //
                           Use<OneOf<terms::GasViscosities>, pr>,    //
-                          Use<terms::ConductivityPressure, pr>,     //
+                          Use<OneOf<terms::Conductivities>, pr>,    //
                           Use<OneOf<terms::StressForms>, pr>,       //
                           Use<terms::SignalSpeed, pr>>;
   /// Places of the uses in Force.

@@ -49,13 +49,13 @@ struct Gas {
   static constexpr Info info{"gas", "What we find best for gases with shocks",
                              "Quintic spline, rho and H from each other (H = 3.6 dp), variational grad-h forces, "
                              "viscosity by the signal speed "
-                             "switched as Cullen and Dehnen do, conductivity by the jump of pressure, ideal gas",
+                             "switched as Cullen and Dehnen do, conductivity by the speed of approach, ideal gas",
                              "validation/niedoba"};
   static constexpr bool is_gas = true;
-  static constexpr std::string_view kernel = "quintic_spline", density = "grad_h", law = "number_density",
-                                    mean = "arithmetic", pressure = "grad_h", artificial = "signal", limiter = "none",
-                                    viscosity_switch = "cullen_dehnen", conductivity = "price", eos = "ideal_gas",
-                                    wall = "none", wall_reference = "auto", integrator = "leapfrog";
+  static constexpr std::string_view kernel = "quintic_spline", density = "grad_h_mass", law = "number_density",
+                                    mean = "arithmetic", pressure = "grad_h_mass", artificial = "signal",
+                                    limiter = "none", viscosity_switch = "cullen_dehnen", conductivity = "velocity",
+                                    eos = "ideal_gas", wall = "none", wall_reference = "auto", integrator = "leapfrog";
   static constexpr double support_over_spacing = 3.6, alpha = 1, beta = 2, fixed_step = 0;
   static constexpr bool wall_pulls = true, guard = false;
   static constexpr int wall_layers = 0;

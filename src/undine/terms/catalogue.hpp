@@ -102,6 +102,8 @@ using StressForms = Catalogue<  //
     ViscousStressSum,           //
     ViscousStressSymmetric>;
 
-using Conductivities = Catalogue<ConductivityPressure>;
+using Conductivities = Catalogue<  //
+    ConductivityVelocity,          //
+    ConductivityPressure>;
 
 }  // namespace undine::terms

@@ -9,7 +9,8 @@ enum class WallDensity {
   modified,      ///< reference density plus the sum over the fluid: Saalfeld (2012), eq. 70
   extrapolated,  ///< from the pressure of the fluid, carried to the wall: Adami et al. (2012)
   mirrored,      ///< from the density of the fluid at the mirror image, carried to the wall: English et al. (2022)
-  copied         ///< that of the fluid particle whose ghost it is
+  copied,        ///< that of the fluid particle whose ghost it is
+  held           ///< that of the gas nearest at the start, for good, as its internal energy
 };
 
 /// What a ghost does with the velocity of its parent, relative to the wall.

@@ -40,20 +40,27 @@ struct GasParticles {
 };
 
 template <int N>
+void add_gas(Store<N>& store, Group group, const GasParticles<N>& all, double alpha = 1) {
+  using namespace field;
+  const std::size_t first = store.append(group, all.x.size(), 0);
+  for (std::size_t k = 0; k < all.x.size(); ++k) {
+    const std::size_t i = first + k;
+    store.template get<x>()[i] = all.x[k];
+    store.template get<v>()[i] = all.v[k];
+    store.template get<m>()[i] = all.m[k];
+    store.template get<rho>()[i] = store.template get<rho_0>()[i] = all.rho[k];
+    store.template get<e>()[i] = all.e[k];
+    store.template get<h>()[i] = all.h[k];
+    store.template get<alpha_v>()[i] = alpha;
+  }
+}
+
+template <int N>
 Store<N> gas_store(const GasParticles<N>& all, double alpha = 1) {
   using namespace field;
   Store<N> store;
   store.allocate(Fields<x, v, rho, e, h, m, rho_0, mu, alpha_v, x_list>::set());
-  store.append(Group::fluid, all.x.size(), 0);
-  for (std::size_t i = 0; i < all.x.size(); ++i) {
-    store.template get<x>()[i] = all.x[i];
-    store.template get<v>()[i] = all.v[i];
-    store.template get<m>()[i] = all.m[i];
-    store.template get<rho>()[i] = store.template get<rho_0>()[i] = all.rho[i];
-    store.template get<e>()[i] = all.e[i];
-    store.template get<h>()[i] = all.h[i];
-    store.template get<alpha_v>()[i] = alpha;
-  }
+  add_gas(store, Group::fluid, all, alpha);
   return store;
 }
 

@@ -81,7 +81,7 @@ GasOptions<1> dissipative() {
   auto o = gas_options(2.0 / count);
   o.artificial = OneOf<terms::GasViscosities>(terms::GasViscositySignal{});
   o.viscosity_switch = ChoiceOf<terms::ViscositySwitches>(terms::SwitchCullenDehnen{});
-  o.conductivity = terms::ConductivityPressure{};
+  o.conductivity.emplace(terms::ConductivityPressure{});
   return o;
 }
 

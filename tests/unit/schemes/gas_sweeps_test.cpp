@@ -112,10 +112,8 @@ TEST(GasSweeps, ForceTermsAgreeWithSumsPairByPair) {
     choose(std::integral_constant<std::size_t, Sweeps::pressure>{}, terms::GasPressureForms{});
     choose(std::integral_constant<std::size_t, Sweeps::energy>{}, terms::EnergyForms{});
     choose(std::integral_constant<std::size_t, Sweeps::artificial>{}, terms::GasViscosities{});
+    choose(std::integral_constant<std::size_t, Sweeps::conductivity>{}, terms::Conductivities{});
     choose(std::integral_constant<std::size_t, Sweeps::stress>{}, terms::StressForms{});
-    none();
-    sweep.template use<Sweeps::conductivity>().active = true;
-    check<N>(bench, sweep, terms::ConductivityPressure{});
     none();
     sweep.template use<Sweeps::signal>().active = true;
     check<N>(bench, sweep, terms::SignalSpeed{});

@@ -1,3 +1,4 @@
+#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -286,6 +287,59 @@ TEST(Gas, AccountsHoldNothingThatOnlyMoved) {
   const auto& ledger = flow.energies().ledger;
   for (const double account : {ledger.artificial, ledger.diffusion, ledger.exchange, ledger.walls, ledger.body})
     EXPECT_LT(std::abs(account), 1e-12 * flow.energies().elastic);
+}
+
+// ---- Walls ----------------------------------------------------------------------------------------------------------
+
+// Criterion: the gas feels wall particles that hold a state as it feels gas in that state: acceleration and rate of
+// energy of every particle to 1e-12 of the largest. After ten steps the walls have the densities, energies and places
+// of the start, exactly.
+TEST(Gas, WallsThatAnswerAreGasThatStays) {
+  const test::Threads one(1);
+  auto all = test::gas_box<1>(40, 2.6 / 40, 6);
+  test::GasParticles<1> halves[2];
+  for (std::size_t i = 0; i < all.x.size(); ++i) {
+    const bool wall = all.x[i][0] > 0.5;
+    if (wall) all.v[i] = {};
+    auto& half = halves[wall];
+    half.x.push_back(all.x[i]), half.v.push_back(all.v[i]), half.m.push_back(all.m[i]);
+    half.rho.push_back(all.rho[i]), half.e.push_back(all.e[i]), half.h.push_back(all.h[i]);
+  }
+  auto options = test::gas<1>(2.6 / 40, 1.0 / 40);
+  test::take_symmetric_forms(options);
+  options.artificial.emplace(terms::GasViscositySignal{});
+  options.conductivity.emplace();
+  const Gas<1> whole(test::gas_store(all), test::unit_box<1>(), options);
+  options.wall_density = walls::WallDensity::held;
+  auto store = test::gas_store(halves[0]);
+  test::add_gas(store, Group::wall, halves[1]);
+  Gas<1> flow(std::move(store), test::unit_box<1>(), options);
+
+  const auto rates = [](const Gas<1>& of) {
+    std::map<double, std::array<double, 2>> at;  // by place
+    const IndexRange fluid = of.store().range(Group::fluid);
+    for (std::size_t i = fluid.begin; i < fluid.end; ++i)
+      at[of.store().get<x>()[i][0]] = {of.store().get<acc>()[i][0], of.store().get<de>()[i]};
+    return at;
+  };
+  const auto expected = rates(whole);
+  double largest[2] = {};
+  for (const auto& [at, rate] : expected)
+    for (const int k : {0, 1}) largest[k] = std::max(largest[k], std::abs(rate[k]));
+  for (const auto& [at, rate] : rates(flow))
+    for (const int k : {0, 1}) EXPECT_NEAR(rate[k], expected.at(at)[k], 1e-12 * largest[k]);
+
+  const auto walls_of = [](const Gas<1>& of) {
+    std::map<double, std::array<double, 2>> at;
+    const IndexRange wall = of.store().range(Group::wall);
+    for (std::size_t i = wall.begin; i < wall.end; ++i)
+      at[of.store().get<x>()[i][0]] = {of.store().get<rho>()[i], of.store().get<e>()[i]};
+    return at;
+  };
+  const auto before = walls_of(flow);
+  for (int k = 0; k < 10; ++k) integrators::Leapfrog::step(flow, 1e-4);
+  EXPECT_EQ(walls_of(flow), before);
+  EXPECT_EQ(before.size(), halves[1].x.size());
 }
 
 // ---- Laws of H ------------------------------------------------------------------------------------------------------

@@ -22,7 +22,7 @@ constexpr auto w_by_support(const auto& ab) { return -(double(ab.dim) * ab.w + d
 struct DensityGradH {
   static constexpr Info info{"grad_h", "Number density times own mass, with its derivative by the support radius",
                              "rho_a = m_a sum_b W(r_ab, H_a), drho_a/dH_a = m_a sum_b dW/dH(r_ab, H_a)",
-                             "Ott & Schnetter (2003); Monaghan (2005), sec. 2.2; Hopkins (2013), eq. 7"};
+                             "Ott & Schnetter (2003); Monaghan (2005); Hopkins (2013), with weights of 1"};
   using reads = Fields<m>;
   using adds = Fields<rho_sum, rho_sum_h>;
   static constexpr bool takes_target_support = true;
@@ -35,7 +35,7 @@ struct DensityGradH {
 struct DensityGradHMass {
   static constexpr Info info{"grad_h_mass", "Density by summation, with its derivative by the support radius",
                              "rho_a = sum_b m_b W(r_ab, H_a), drho_a/dH_a = sum_b m_b dW/dH(r_ab, H_a)",
-                             "Springel & Hernquist (2002); Price (2012), eq. 4"};
+                             "Springel & Hernquist (2002); Price (2012), density with variable h"};
   using reads = Fields<m>;
   using adds = Fields<rho_sum, rho_sum_h>;
   static constexpr bool takes_target_support = true;
@@ -46,7 +46,7 @@ struct DensityGradHMass {
 };
 
 /// Omega = 1 + H/(N rho) drho/dH, from dH/drho = -H/(N rho): where H follows density, density changes by 1/Omega of
-/// what it would with H held. Springel & Hernquist (2002), eq. 11; Price (2012), eq. 27.
+/// what it would with H held. Springel & Hernquist (2002); Price (2012).
 template <int N>
 constexpr double grad_h_factor(double H, double rho_sum, double rho_sum_h) {
   return 1 + H / (N * rho_sum) * rho_sum_h;

@@ -11,7 +11,7 @@ using namespace field;
 struct EnergyGradH {
   static constexpr Info info{"grad_h", "Work of pressure form `grad_h`: conserves energy and entropy",
                              "de_a/dt = m_a p_a/(Omega_a rho_a^2) sum_b (v_a - v_b).grad_a W_ab(H_a)",
-                             "Hopkins (2013), sec. 2.2.2; Springel & Hernquist (2002)"};
+                             "Hopkins (2013), general equation of energy; Springel & Hernquist (2002)"};
   using reads = Fields<m, rho, p, omega, v>;
   using adds = Fields<de>;
   static constexpr bool needs_both_supports = true;
@@ -24,7 +24,7 @@ struct EnergyGradH {
 struct EnergyGradHMass {
   static constexpr Info info{"grad_h_mass", "Work of pressure form `grad_h_mass`: conserves energy and entropy",
                              "de_a/dt = p_a/(Omega_a rho_a^2) sum_b m_b (v_a - v_b).grad_a W_ab(H_a)",
-                             "Price (2012), eq. 35; Springel & Hernquist (2002)"};
+                             "Price (2012), internal energy with variable h; Springel & Hernquist (2002)"};
   using reads = Fields<m, rho, p, omega, v>;
   using adds = Fields<de>;
   static constexpr bool needs_both_supports = true;

@@ -37,7 +37,7 @@ struct EnergyOwn {
                              "Work of a particle's own pressure; with pressure form `symmetric` conserves energy, and "
                              "entropy with density by continuity",
                              "de_a/dt = p_a/rho_a^2 sum_b m_b (v_a - v_b).grad_a W_ab",
-                             "Monaghan (1992), sec. 3; Price (2012), eq. 35 with Omega = 1"};
+                             "Monaghan (1992); Price (2012), internal energy, with Omega = 1"};
   using reads = Fields<m, rho, p, v>;
   using adds = Fields<de>;
 

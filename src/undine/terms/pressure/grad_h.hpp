@@ -14,7 +14,7 @@ struct PressureGradH {
       "grad_h", "Variational pressure force of the number density; conserves momentum, and energy with its partner",
       "dv_a/dt = - 1/m_a sum_b (m_a^2 p_a/(Omega_a rho_a^2) grad_a W_ab(H_a) + m_b^2 p_b/(Omega_b rho_b^2) grad_a "
       "W_ab(H_b))",
-      "Hopkins (2013), eq. 12 with volumes m/rho; Springel & Hernquist (2002)"};
+      "Hopkins (2013), general equation of motion, with volumes m/rho; Springel & Hernquist (2002)"};
   using reads = Fields<m, rho, p, omega>;
   using adds = Fields<acc>;
   static constexpr bool needs_both_supports = true;
@@ -30,7 +30,7 @@ struct PressureGradHMass {
       "grad_h_mass",
       "Variational pressure force of the summed density; conserves momentum, and energy with its partner",
       "dv_a/dt = - sum_b m_b (p_a/(Omega_a rho_a^2) grad_a W_ab(H_a) + p_b/(Omega_b rho_b^2) grad_a W_ab(H_b))",
-      "Springel & Hernquist (2002), eq. 10; Price (2012), eq. 30"};
+      "Springel & Hernquist (2002); Price (2012), equations of motion with variable h"};
   using reads = Fields<m, rho, p, omega>;
   using adds = Fields<acc>;
   static constexpr bool needs_both_supports = true;

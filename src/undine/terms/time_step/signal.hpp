@@ -9,7 +9,7 @@ using namespace field;
 struct SignalSpeed {
   static constexpr Info info{"signal_speed", "Largest speed of a signal between neighbours, for steps and switches",
                              "v_sig_a = max_b ((c_a + c_b)/2 - min(0, v_ab.r_ab/|r_ab|))",
-                             "Cullen & Dehnen (2010), eq. 15; Monaghan (1997)"};
+                             "Cullen & Dehnen (2010), signal velocity; Monaghan (1997)"};
   using reads = Fields<v, c>;
   using adds = Fields<v_signal>;
 

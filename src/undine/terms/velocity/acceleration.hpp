@@ -8,7 +8,7 @@ using namespace field;
 struct AccelerationDivergence {
   static constexpr Info info{"acceleration_divergence", "Divergence of the acceleration, which foretells compression",
                              "div acc_a = sum_b (m_b/rho_b) (acc_b - acc_a).grad_a W_ab",
-                             "Cullen & Dehnen (2010), sec. 3.2; Price et al. (2018), eq. 46"};
+                             "Cullen & Dehnen (2010), appendix B: -d(div v)/dt; Price et al. (2018)"};
   using reads = Fields<m, rho, acc>;
   using adds = Fields<div_acc>;
 

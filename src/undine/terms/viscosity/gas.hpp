@@ -28,7 +28,7 @@ struct GasViscositySignal {
   static constexpr Info info{
       "signal", "Artificial viscosity by the signal speed of the pair, active on approach, with its heat",
       "Pi_ab = f_ab (-alpha_ab c w_ab + beta w_ab^2)/rho, w_ab = min(0, v_ab.r_ab/|r_ab|), alpha, f, c and rho means",
-      "Monaghan (1997), eq. 4.2-4.4; Price et al. (2018), eq. 40-42"};
+      "Monaghan (1997), signal velocity; Price et al. (2018), shock capturing"};
   using reads = Fields<m, rho, c, v, alpha_v, balsara>;
   using adds = Fields<acc, de>;
 
@@ -52,7 +52,7 @@ struct GasViscosityMonaghan {
       "monaghan", "Monaghan's artificial viscosity, active on approach, with its heat",
       "Pi_ab = f_ab (-alpha_ab c mu_ab + beta mu_ab^2)/rho, mu_ab = h min(0, v_ab.r_ab)/(r^2 + 0.01 h^2), alpha, f, c "
       "and rho means",
-      "Monaghan (1992), eq. 4.1-4.2; Niedoba (2012), eq. 2.70-2.72; f: Balsara (1995)"};
+      "Niedoba (2012), eq. 2.70-2.72; Monaghan (1992); f: Balsara (1995)"};
   using reads = Fields<m, rho, c, v, alpha_v, balsara>;
   using adds = Fields<acc, de>;
 

@@ -36,7 +36,7 @@ constexpr double stretching(const Vec<N, Vec<N>>& L) {
   return sum;
 }
 
-/// f = |div v|/(|div v| + |curl v| + 1e-4 c/h). Balsara (1995), eq. 67 of his thesis as it is used since; h = H/kappa.
+/// f = |div v|/(|div v| + |curl v| + 1e-4 c/h). Balsara (1995), as it is used since; h = H/kappa.
 template <int N>
 double balsara_factor(const Vec<N, Vec<N>>& L, double c, double h) {
   const double div = std::abs(divergence(L));
@@ -63,7 +63,7 @@ struct SwitchMorrisMonaghan {
   static constexpr Info info{
       "morris_monaghan", "Grows where flow converges, decays within a few sound crossings",
       "dalpha/dt = (alpha_min - alpha)/tau + (alpha_max - alpha) f max(-div v, 0), tau = h/(sigma c), f as `balsara`",
-      "Morris & Monaghan (1997), eq. 11-13; (alpha_max - alpha): Rosswog et al. (2000), eq. 20"};
+      "Morris & Monaghan (1997); (alpha_max - alpha): Rosswog et al. (2000); f: Balsara (1995)"};
   using reads = Fields<alpha_v, strain, c>;
 
   double alpha_min = 0.1, alpha_max = 1, sigma = 0.1;
@@ -90,7 +90,7 @@ struct SwitchCullenDehnen {
       "A = xi max(-d(div v)/dt, 0); alpha = alpha_loc = alpha_max H^2 A/(v_sig^2 + H^2 A) where that is larger, else "
       "dalpha/dt = (alpha_loc - alpha) 2 l v_sig/H; xi = (div v)^2/((div v)^2 + |curl v|^2), d(div v)/dt = div acc - "
       "L:L^T",
-      "Cullen & Dehnen (2010), eq. 13-16; xi: Balsara-type, as in Price et al. (2018), eq. 47"};
+      "Cullen & Dehnen (2010), without their limiter; xi: Balsara's kind, as in Price et al. (2018)"};
   using reads = Fields<alpha_v, strain, div_acc, v_signal, c>;
 
   double alpha_min = 0, alpha_max = 2, l = 0.05;
