@@ -42,7 +42,7 @@ template <int N>
 void expect_parts_to_sum_up(const Flow<N>& flow, std::size_t least_parts) {
   const auto a = flow.store().template get<acc>();
   const IndexRange fluid = flow.store().range(Group::fluid);
-  for (std::size_t i = fluid.begin; i < fluid.end; ++i) {
+  for (std::size_t i = fluid.begin; i < fluid.end; i += 1 + fluid.size() / 60) {
     const auto parts = force_parts<N>(flow, i);
     EXPECT_GE(parts.size(), least_parts);
     Vec<N> sum{};
