@@ -11,6 +11,7 @@
 #include "undine/app/case_ghosts.hpp"
 #include "undine/app/case_particles.hpp"
 #include "undine/app/case_shapes.hpp"
+#include "undine/app/case_wall_particles.hpp"
 #include "undine/app/case_walls.hpp"
 #include "undine/core/error.hpp"
 #include "undine/geometry/embed.hpp"
@@ -272,14 +273,8 @@ class Reader {
   /// Whether repulsive particles lie half of their spacing behind the surface: Niedoba (2012), 3.3.
   bool shifted() const { return root_.table("scheme").table("wall").flag("shift", true); }
 
-  /// How far apart particles that repel lie: closer than the fluid's they make a smoother wall.
   double repelling_spacing() const {
-    const Table wall = root_.table("scheme").table("wall");
-    const double spacing = wall.positive("spacing", unit::length, setup_.spacing);
-    if (spacing < 0.5 * (1 - 1e-9) * setup_.spacing || spacing > setup_.spacing * (1 + 1e-9))
-      wall.fail("spacing", fmt::format("particles that repel cannot lie {:.4g} m apart", spacing),
-                fmt::format("the case's spacing is {:.4g} m", setup_.spacing), "take half of that to all of it");
-    return spacing;
+    return undine::repelling_spacing(root_.table("scheme").table("wall"), setup_.spacing);
   }
 
   /// Monaghan (1994) takes D = 5 g H, H the depth of the fluid; the expected speed is sqrt(2 g H).
@@ -632,24 +627,10 @@ class Reader {
             material.density(material.rho_0 * std::max(0.0, strength * surface + dot(setup_.options().gravity, x[i])));
       const Body& body = bodies_[static_cast<std::size_t>(setup_.body_of_id[i])];
       if (!body.given.contains("rho")) store.template get<field::rho>()[i] = rest;
-      if (setup_.options().wall_density == walls::WallDensity::held) hold_gas(i, found);
+      if (setup_.options().wall_density == walls::WallDensity::held) hold_gas(store, setup_.domain, i, found);
       near_wall.find(x[i], H, found);
       store.template get<field::rho_wall>()[i] = wall_reference(material.rho_0, rest, wall_sum(i, found), lattice);
     }
-  }
-
-  /// Gives a wall particle the state of the gas nearest to it, among `near` of the fluid.
-  void hold_gas(std::size_t i, const std::vector<std::uint32_t>& near) {
-    auto& store = setup_.store;
-    const std::size_t first = store.range(Group::fluid).begin;
-    const auto x = store.template get<field::x>();
-    const auto far = [&](std::uint32_t j) { return norm_sq(setup_.domain.nearest_image(x[first + j] - x[i])); };
-    const auto nearest = std::ranges::min_element(near, {}, far);
-    if (nearest == near.end()) return;
-    const std::size_t gas = first + *nearest;
-    for (const int f : {field::rho::id, field::e::id, field::m::id, field::rho_0::id})
-      store.raw(f)[i] = store.raw(f)[gas];
-    store.materials()[i] = store.materials()[gas];
   }
 
   /// rho_wref of a modified-density wall particle. "auto": what fluid at rest on the wall lacks to `rest`, which is the
