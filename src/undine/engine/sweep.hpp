@@ -102,7 +102,7 @@ struct SweepContext {
   std::array<KernelChoice, kernel_roles> kernels;
   double rho_reference = 0;  ///< kg/m^3; pair arithmetic in float carries densities as deviations from it
   std::array<bool, group_count> sources{true, true};  ///< groups that the sweep takes from, whatever its uses say
-  std::span<const char> wanted;  ///< by target: whether it is summed for, or keeps what it has; empty: all are
+  std::span<const char> wanted{};  ///< by target: whether it is summed for, or keeps what it has; empty: all are
 
   bool wants(std::size_t target) const { return wanted.empty() || wanted[target]; }
 };
