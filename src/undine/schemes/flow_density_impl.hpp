@@ -5,8 +5,11 @@
 #include "undine/schemes/particle_rules.hpp"
 
 namespace undine {
+namespace {
 
 using namespace field;
+
+}  // namespace
 
 template <int N>
 void Flow<N>::add_summation_stages(DensityForm form, bool walls) {
