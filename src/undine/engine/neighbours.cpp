@@ -61,15 +61,17 @@ void Neighbours<N>::start(double support, const Box<N>& box, std::span<const dou
   for (auto& parts : parts_) parts.resize(classes_.size());
 }
 
-/// Particles are in one class whose list radii are between the same powers of two of the largest.
+/// Class k holds list radii from 2^(-k/2) of the largest down to 2^(-(k+1)/2) of it, the last class all below.
 template <int N>
 void Neighbours<N>::choose_classes(std::span<const double> own_supports) {
   radii_.resize(own_supports.size());
   class_of_.resize(own_supports.size());
-  std::array<double, most_classes> widest{};
+  std::array<double, most_classes> nobody, widest;
+  nobody.fill(-1);
+  widest = nobody;
 #pragma omp parallel
   {
-    std::array<double, most_classes> part{};
+    auto part = nobody;
 #pragma omp for schedule(static) nowait
     for (std::size_t i = 0; i < own_supports.size(); ++i) {
       const double radius = own_supports[i] * (1 + options_.skin), ratio = list_radius_ / radius;
@@ -83,10 +85,11 @@ void Neighbours<N>::choose_classes(std::span<const double> own_supports) {
     for (int k = 0; k < most_classes; ++k) widest[k] = std::max(widest[k], part[k]);
   }
   std::size_t count = most_classes;
-  while (count > 1 && !(widest[count - 1] > 0)) --count;
+  while (count > 1 && widest[count - 1] < 0) --count;
   classes_.resize(count);
-  for (std::size_t k = 0; k < count; ++k)
-    classes_[k].search_radius = k == 0 ? codes_.search_radius() : codes_.search_radius(widest[k]);
+  classes_.front().search_radius = codes_.search_radius();
+  for (std::size_t k = 1; k < count; ++k)
+    classes_[k].search_radius = widest[k] < 0 ? classes_[k - 1].search_radius : codes_.search_radius(widest[k]);
 }
 
 template <int N>

@@ -30,8 +30,8 @@ inline constexpr std::array<std::string_view, 4> lists_names{"auto", "stored", "
 /// and not on history.
 ///
 /// Particles may have supports of their own. Two are then neighbours within the larger of their list radii,
-/// H (1 + skin) each, and particles are sorted by classes of H first, the widest first, each half as wide as the one
-/// before. Every class has cells of its own, so that a few wide particles do not make everybody everybody's candidate.
+/// H (1 + skin) each, and particles are sorted by classes of H first, the widest first, each half an octave of widths.
+/// Every class has cells of its own, so that a few wide particles do not make everybody everybody's candidate.
 template <int N>
 class Neighbours {
  public:
