@@ -46,7 +46,8 @@ class Server:
     def raw(self, data, wait=3):
         """Sends bytes and returns what comes back until the server ends it, if anything does."""
         answer = b""
-        with socket.create_connection(("127.0.0.1", self.port), timeout=wait) as link:
+        with socket.create_connection(("127.0.0.1", self.port), timeout=30) as link:
+            link.settimeout(wait)
             try:
                 link.sendall(data)
                 while len(answer) < 1_000_000 and (more := link.recv(65536)):
