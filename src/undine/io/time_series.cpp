@@ -63,6 +63,12 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+/// Without the byte order mark that some programs put before a text.
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
 /// Whether a cell is a number; an empty one is NaN.
 bool parse_number(std::string_view cell, double& value) {
   value = std::numeric_limits<double>::quiet_NaN();
@@ -138,7 +144,7 @@ std::string kept_text(const fs::path& path, const std::vector<SeriesColumn>& col
   std::string kept;
   bool in_rows = false;
   std::size_t row = 0;
-  for (std::string_view line : split(text, '\n')) {
+  for (std::string_view line : split(without_mark(text), '\n')) {
     if (line.empty()) continue;
     const bool counts = !trim(line).empty() && trim(line).front() != '#';
     if (counts && in_rows && !(table.columns[0].values[row++] <= last_time)) continue;
@@ -206,10 +212,8 @@ CsvTable read_csv(const fs::path& path) { return parse_csv(read_text(path), path
 CsvTable parse_csv(const std::string& text, const fs::path& name) {
   CsvTable table;
   table.path = name;
-  std::string_view rest(text);
-  if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);  // byte order mark
   SourceLocation where{.file = name.string()};
-  for (const std::string_view line : split(rest, '\n')) {
+  for (const std::string_view line : split(without_mark(text), '\n')) {
     ++where.line;
     const std::string_view content = trim(line);
     if (content.empty() || content.front() == '#') continue;

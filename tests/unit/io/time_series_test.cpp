@@ -49,6 +49,16 @@ TEST(TimeSeries, ResumesAtATime) {
   EXPECT_EQ(read_bytes(folder / "new.csv"), "time [s],front [m],ratio\n");
 }
 
+// Criterion: a byte order mark before the first comment, as an editor may leave it, makes neither that comment nor the
+// header a row.
+TEST(TimeSeries, ResumesBehindAByteOrderMark) {
+  const TemporaryFolder folder;
+  const std::string rows = "# comment\ntime [s],front [m],ratio\n0,0,1\n";
+  write_bytes(folder / "a.csv", "\xef\xbb\xbf" + rows + "0.1,0.1,1\n");
+  TimeSeries::resume(folder / "a.csv", columns, 0.05);
+  EXPECT_EQ(read_bytes(folder / "a.csv"), rows);
+}
+
 TEST(TimeSeries, RefusesWhatItCannotWrite) {
   const TemporaryFolder folder;
   EXPECT_THROW(TimeSeries::create(folder / "missing/a.csv", columns), Error);
