@@ -7,7 +7,6 @@
 #include "undine/core/error.hpp"
 #include "undine/schemes/flow_density_impl.hpp"
 #include "undine/schemes/flow_stages_impl.hpp"
-#include "undine/schemes/particle_rules.hpp"
 #include "undine/schemes/state_error.hpp"
 
 namespace undine {

@@ -43,6 +43,8 @@ struct Score {
   bool limited() const { return limit == limit; }
   /// Whether the limit is kept; what could not be measured does not keep it.
   bool pass() const { return !limited() || (is_upper ? value <= limit : value >= limit); }
+  /// Whether the limit is kept, for tables: "yes", "NO", or nothing where there is none.
+  std::string kept_text() const { return !limited() ? "" : pass() ? "yes" : "NO"; }
 };
 
 struct StudyFile;

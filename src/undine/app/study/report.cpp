@@ -168,11 +168,7 @@ class Writer {
     std::string text =
         "\n" + md_row({"metric", "value", "limit", "kept", "source"}) + md_row({"---", "---", "---", "---", "---"});
     for (const Score& score : scores)
-      text += md_row({score.metric, md_number(score.value), score.limit_text(),
-                      !score.limited() ? ""
-                      : score.pass()   ? "yes"
-                                       : "NO",
-                      score.source});
+      text += md_row({score.metric, md_number(score.value), score.limit_text(), score.kept_text(), score.source});
     return text;
   }
 
@@ -237,11 +233,7 @@ Json score_json(const Score& score) {
 
 std::string score_row(const std::string& name, const Score& score) {
   return md_row({name, score.metric, md_number(score.value) + (score.unit.empty() ? "" : " " + score.unit),
-                 score.limit_text(),
-                 !score.limited() ? ""
-                 : score.pass()   ? "yes"
-                                  : "NO",
-                 score.source});
+                 score.limit_text(), score.kept_text(), score.source});
 }
 
 void write_report(const StudyFile& study, const std::vector<Member>& members, const std::filesystem::path& folder) {

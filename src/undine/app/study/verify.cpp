@@ -204,10 +204,7 @@ void print_table(const std::vector<Line>& lines) {
   for (const Line& line : lines)
     fmt::print("{:<{}}  {:<{}}  {:>10}  {:<10}  {}\n", line.name, name, line.score.metric, metric,
                text_of(line.score.value) + (line.score.unit.empty() ? "" : " " + line.score.unit),
-               line.score.limit_text(),
-               !line.score.limited() ? ""
-               : line.score.pass()   ? "yes"
-                                     : "NO");
+               line.score.limit_text(), line.score.kept_text());
 }
 
 /// The same for people who read it later.
