@@ -292,7 +292,7 @@ def verify_quick(program, _cases, folder):
     """The shipped verifications: all can be read, and the short part gives a number for every line, in less than a minute of one core."""
     listing = undine(program, "verify", "--list")
     names = [line.split()[0] for line in listing.splitlines()[1:-1]]
-    require({"still_water", "sound_wave", "poiseuille", "couette", "taylor_green", "martin_moyce", "spheric2", "consistency", "noh",
+    require({"still_water", "sound_wave", "poiseuille", "couette", "taylor_green", "martin_moyce", "gate", "spheric2", "consistency", "noh",
              "double_shock", "strong_blast", "niedoba_cavity"} <= set(names),
             f"listed: {names}")
     out = os.path.join(folder, "out")
