@@ -90,7 +90,7 @@ template <int N>
 void far_apart() {
   Random random(9);
   for (const double far : {3.0, 30.0, 1e3, 1e6, 1e9, 1e12})
-    for (int axis = 0; axis < N; ++axis) {
+    for (int axis = 0; axis < (under_sanitizer ? 1 : N); ++axis) {
       SCOPED_TRACE(testing::Message() << N << "-D, outliers " << far << " away along axis " << axis);
       const auto spray = [&](int k) {
         Vec<N> x = random.vector<N>(1);

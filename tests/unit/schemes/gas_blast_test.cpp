@@ -55,8 +55,8 @@ double spread(const Gas<3>& flow) {
 
 constexpr int half = 15;
 
-// Criterion: after each of 30 steps every pair nearer than the larger H of the two is on the lists of both, while H
-// comes to differ by more than a factor of two; whatever the mean of the supports.
+// Criterion: after each of 30 steps (each fifth under sanitizers) every pair nearer than the larger H of the two is on
+// the lists of both, while H comes to differ by more than a factor of two; whatever the mean of the supports.
 TEST(GasBlast, ListsMissNoPair) {
   const test::Threads one(1);
   for (const auto mean : {Symmetrisation::arithmetic, Symmetrisation::gradients}) {
@@ -65,6 +65,7 @@ TEST(GasBlast, ListsMissNoPair) {
     Gas<3> flow(cold_gas_with_a_hot_middle(), test::unit_box<3>(), options);
     for (int k = 0; k < 2 * half; ++k) {
       run(flow, 1);
+      if (test::under_sanitizer && k % 5 != 4) continue;
       const auto at = flow.store().get<x>();
       const auto H = flow.store().get<h>();
       Neighbours<3>::Scratch scratch;
