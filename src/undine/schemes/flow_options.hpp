@@ -63,6 +63,11 @@ struct FlowOptions {
   SmoothingLaw smoothing = SmoothingLaw::constant;
   bool own_supports = false;  ///< whether particles have an H of their own even where it is constant
   bool supports_vary() const { return own_supports || smoothing != SmoothingLaw::constant; }
+  Support support_in_use() const {
+    Support used = support;
+    used.per_particle = supports_vary();
+    return used;
+  }
 
   std::optional<ChoiceOf<terms::DensityFilters>> density_filter;  ///< of a density that is carried by continuity
 
