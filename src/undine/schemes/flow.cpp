@@ -99,7 +99,7 @@ SweepContext<N> Flow<N>::context(Store<N>& store, const Neighbours<N>& neighbour
 template <int N>
 InterpolationSource<N> Flow<N>::interpolation_source() const {
   const auto& kernel = common_->kernels[static_cast<std::size_t>(KernelRole::density)];
-  return {store_, neighbours_, domain_, kernel, common_->support_in_use()};
+  return {store_, neighbours_, domain_, kernel, common_->support_in_use(), wall_volume()};
 }
 
 template <int N>

@@ -117,6 +117,8 @@ class Flow {
   virtual std::span<const Vec<N>> drift_correction() const { return {}; }
   /// What is integrated in time; position first.
   virtual std::vector<Evolved> evolved() const;
+  /// Which density gives wall particles their volume.
+  virtual WallVolume wall_volume() const { return WallVolume::at_rest; }
   /// Keeps the state within bounds after a stage.
   virtual void limit_state() {}
   /// Numbers that rates left behind and `book` needs, and accounts: what a checkpoint keeps besides time and lists.
