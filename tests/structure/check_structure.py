@@ -59,7 +59,6 @@ LONG_FILES = {
     "tests/unit/kernels/kernel_test.cpp": "every property of every kernel, generated from the list",
     "tests/unit/terms/terms_test.cpp": "every property of every term, generated from the lists",
     "src/undine/engine/sweep_loop.hpp": "the pair loop from records to sums, which is compiled as one piece",
-    "src/undine/app/lists.cpp": "what `list` and `show` say of each axis, side by side",
     # "src/undine/folder/file.hpp": "why it has more than LINES_WARNED lines" (no warning then; LINES_ALLOWED still holds)
 }
 
