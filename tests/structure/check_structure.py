@@ -54,12 +54,10 @@ PREPROCESSOR_FILES = {
 
 LINES_WARNED, LINES_ALLOWED = 400, 800
 LONG_FILES = {
-    "src/undine/app/case_setup.cpp": "one reader of particles, domain, materials and walls, which share the half-read case",
     "src/undine/schemes/weakly_compressible_impl.hpp": "the moves, the plan and the accounts of one scheme",
     "tests/unit/kernels/kernel_test.cpp": "every property of every kernel, generated from the list",
     "tests/unit/terms/terms_test.cpp": "every property of every term, generated from the lists",
     "src/undine/engine/sweep_loop.hpp": "the pair loop from records to sums, which is compiled as one piece",
-    "src/undine/app/lists.cpp": "what `list` and `show` say of each axis, side by side",
     # "src/undine/folder/file.hpp": "why it has more than LINES_WARNED lines" (no warning then; LINES_ALLOWED still holds)
 }
 

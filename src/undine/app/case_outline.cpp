@@ -42,7 +42,7 @@ CaseOutline outline(const Document& document, const RunOptions& options) {
   const auto* liquid = std::get_if<WeaklyCompressibleOptions<N>>(&setup.scheme);
   if (limits.fixed == 0 && liquid && liquid->viscosity)
     for (const auto& material : liquid->materials)
-      if (material.mu > 0) result.step = std::min(result.step, limits.viscous * h * h * material.rho_0 / material.mu);
+      result.step = std::min(result.step, viscous_step(limits, h, material));
   result.hash = document.hash();
   return result;
 }

@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "undine/app/case_particles.hpp"
+#include <fmt/format.h>
+
 #include "undine/core/error.hpp"
 #include "undine/geometry/mesh.hpp"
 
@@ -74,6 +75,15 @@ Vec3 read_point(const Table& table, std::string_view key, int dimensions) {
   Vec3 point{};
   for (int k = 0; k < dimensions; ++k) point[k] = coordinates[k];
   return point;
+}
+
+std::filesystem::path existing_file(const Table& table, std::string_view key) {
+  const std::filesystem::path file = table.path(key);
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(file, failure))
+    table.fail(key, fmt::format("there is no file '{}'", file.string()), {},
+               "check the path; names are relative to the case file's folder");
+  return file;
 }
 
 ShapePtr read_shape(const Table& table, int dimensions) {

@@ -1,4 +1,7 @@
 #pragma once
+#include <filesystem>
+#include <string_view>
+
 #include "undine/geometry/shape.hpp"
 #include "undine/io/case/table.hpp"
 
@@ -10,5 +13,8 @@ ShapePtr read_shape(const Table& table, int dimensions);
 
 /// A point of `dimensions` coordinates; those it lacks are 0.
 Vec3 read_point(const Table& table, std::string_view key, int dimensions);
+
+/// The file that a key names, which must exist. Throws InputError at the key.
+std::filesystem::path existing_file(const Table& table, std::string_view key);
 
 }  // namespace undine

@@ -39,6 +39,15 @@ const std::vector<Axis>& axes();
 /// The axis of that name. Throws InputError that names the nearest one.
 const Axis& find_axis(std::string_view name);
 
+/// An entry with the axis that it stands in.
+struct Found {
+  const Axis* axis;
+  const Entry* entry;
+};
+
+/// The entries of that name, of whatever axis; `axis/name` picks one. Throws InputError that names the nearest one.
+std::vector<Found> find_entries(std::string_view name);
+
 /// All axes with the number of their entries, an aligned table.
 std::string list_axes();
 
@@ -47,8 +56,7 @@ std::string list_text(std::string_view axis);
 std::string list_json(std::string_view axis);
 std::string list_markdown(std::string_view axis);
 
-/// All that is known of the entries of that name, of whatever axis; `axis/name` picks one. Throws InputError that names
-/// the nearest one.
+/// All that is known of the entries that `find_entries` finds.
 std::string show_text(std::string_view name);
 std::string show_json(std::string_view name);
 

@@ -15,6 +15,12 @@ struct Interpolated {
   double p = 0, rho = 0;  ///< Pa, kg/m^3
 };
 
+/// The density by which a wall particle has its volume V = m/rho.
+enum class WallVolume {
+  at_rest,  ///< rho_0: of a liquid, where the density of a wall particle is an answer to the fluid, not a volume
+  present   ///< rho: of a gas, which has no density at rest and whose wall particles have the state of gas
+};
+
 /// Where interpolation takes its values from; refers to the run, so it must not outlive it.
 template <int N>
 struct InterpolationSource {
@@ -23,6 +29,7 @@ struct InterpolationSource {
   const Domain<N>& domain;
   KernelChoice kernel;
   Support support;  ///< H of each particle: field h if `per_particle`, else `uniform`
+  WallVolume wall_volume = WallVolume::at_rest;
 };
 
 /// Calls f(b, W_b) for each particle of a group with |x - x_b| < H_b (positions of now, nearest periodic image), by
@@ -74,15 +81,14 @@ double fluid_share(const InterpolationSource<N>& source, const Vec<N>& x) {
   return sum;
 }
 
-/// The same of the walls' particles. V = m/rho_0, since the density of a wall particle is an answer to the fluid, not a
-/// volume; of a gas, whose walls are its ghosts, m/rho.
+/// The same of the walls' particles.
 template <int N>
 double wall_share(const InterpolationSource<N>& source, const Vec<N>& x) {
   const auto m = source.store.template get<field::m>();
-  const bool gas = source.store.fields()[static_cast<std::size_t>(field::e::id)];
-  const auto rest = gas ? source.store.template get<field::rho>() : source.store.template get<field::rho_0>();
+  const auto rho = source.wall_volume == WallVolume::at_rest ? source.store.template get<field::rho_0>()
+                                                             : source.store.template get<field::rho>();
   double sum = 0;
-  for_each_near(source, Group::wall, x, [&](std::size_t b, double W) { sum += m[b] / rest[b] * W; });
+  for_each_near(source, Group::wall, x, [&](std::size_t b, double W) { sum += m[b] / rho[b] * W; });
   return sum;
 }
 

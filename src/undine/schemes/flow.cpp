@@ -92,10 +92,14 @@ std::string Flow<N>::describe_sweeps() const {
 }
 
 template <int N>
-SweepContext<N> Flow<N>::context() {
-  Support support = common_->support;
-  support.per_particle = common_->supports_vary();
-  return {store_, neighbours_, domain_, support, common_->kernels, common_->materials.front().rho_0};
+SweepContext<N> Flow<N>::context(Store<N>& store, const Neighbours<N>& neighbours) const {
+  return {store, neighbours, domain_, common_->support_in_use(), common_->kernels, common_->materials.front().rho_0};
+}
+
+template <int N>
+InterpolationSource<N> Flow<N>::interpolation_source() const {
+  const auto& kernel = common_->kernels[static_cast<std::size_t>(KernelRole::density)];
+  return {store_, neighbours_, domain_, kernel, common_->support_in_use(), wall_volume()};
 }
 
 template <int N>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "undine/core/stopwatch.hpp"
+#include "undine/engine/interpolate.hpp"
 #include "undine/engine/pair_sweep.hpp"
 #include "undine/engine/plan.hpp"
 #include "undine/engine/update.hpp"
@@ -75,6 +76,10 @@ class Flow {
   const FlowOptions<N>& options() const { return *common_; }
   const Neighbours<N>& neighbours() const { return neighbours_; }
   double support() const { return support_now_; }
+  /// What sweeps must know to run on such particles and their lists with the choices of this flow.
+  SweepContext<N> context(Store<N>& store, const Neighbours<N>& neighbours) const;
+  /// The fields between the particles, for as long as the flow is there.
+  InterpolationSource<N> interpolation_source() const;
   double time() const { return time_; }
   const Plan& plan() const { return plan_; }
   long list_builds() const { return list_builds_; }
@@ -112,6 +117,8 @@ class Flow {
   virtual std::span<const Vec<N>> drift_correction() const { return {}; }
   /// What is integrated in time; position first.
   virtual std::vector<Evolved> evolved() const;
+  /// Which density gives wall particles their volume.
+  virtual WallVolume wall_volume() const { return WallVolume::at_rest; }
   /// Keeps the state within bounds after a stage.
   virtual void limit_state() {}
   /// Numbers that rates left behind and `book` needs, and accounts: what a checkpoint keeps besides time and lists.
@@ -164,7 +171,7 @@ class Flow {
     all.wanted = wanted;
     sweep.run(all, common_->backend);
   }
-  SweepContext<N> context();
+  SweepContext<N> context() { return context(store_, neighbours_); }
   void refresh_lists();
   /// What every sweep reads of its particles.
   FieldSet place() const {

@@ -51,9 +51,7 @@ void Flow<N>::filter_density() {
   if (++steps_since_filter_ < every) return;
   steps_since_filter_ = 0;
   refresh_lists();
-  const SweepContext<N> run = context();
-  const InterpolationSource<N> source{store_, neighbours_, domain_,
-                                      run.kernels[static_cast<std::size_t>(KernelRole::density)], run.support};
+  const InterpolationSource<N> source = interpolation_source();
   auto density = store_.template get<rho>();
   const std::size_t first = store_.range(Group::fluid).begin;
   std::vector<double> summed(store_.range(Group::fluid).size());

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -62,6 +63,11 @@ struct FlowOptions {
   SmoothingLaw smoothing = SmoothingLaw::constant;
   bool own_supports = false;  ///< whether particles have an H of their own even where it is constant
   bool supports_vary() const { return own_supports || smoothing != SmoothingLaw::constant; }
+  Support support_in_use() const {
+    Support used = support;
+    used.per_particle = supports_vary();
+    return used;
+  }
 
   std::optional<ChoiceOf<terms::DensityFilters>> density_filter;  ///< of a density that is carried by continuity
 
@@ -117,6 +123,11 @@ inline Step shortest_step(const StepLimits& limits, const StepRates& rates) {
   limit(limits.force / std::sqrt(std::sqrt(rates.force_sq)), "force");
   if (rates.viscous > 0) limit(limits.viscous / rates.viscous, "viscous");
   return step;
+}
+
+/// What the viscous limit allows a material at rest, s; h in m. Infinite without viscosity.
+inline double viscous_step(const StepLimits& limits, double h, const materials::Material& at_rest) {
+  return at_rest.mu > 0 ? limits.viscous * sq(h) * at_rest.rho_0 / at_rest.mu : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace undine

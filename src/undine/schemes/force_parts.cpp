@@ -40,7 +40,7 @@ class Apart {
     for (const Group source : all_groups) {
       if (!groups[static_cast<std::size_t>(source)]) continue;
       sweep.take_from({source == Group::fluid, source == Group::wall});
-      sweep.run(context(), {BackendKind::serial, PairPrecision::double_precision});
+      sweep.run(flow_.context(near_.store, near_.lists), {BackendKind::serial, PairPrecision::double_precision});
       parts_.push_back({fmt::format("{} ({})", term, source == Group::fluid ? "fluid" : "wall"),
                         near_.store.template get<Target>()[near_.centre]});
     }
@@ -69,13 +69,6 @@ class Apart {
   }
 
  private:
-  SweepContext<N> context() {
-    const FlowOptions<N>& options = flow_.options();
-    Support support = options.support;
-    support.per_particle = options.supports_vary();
-    return {near_.store, near_.lists, flow_.domain(), support, options.kernels, options.materials.front().rho_0};
-  }
-
   const Flow<N>& flow_;
   Neighbourhood<N> near_;
   std::vector<ForcePart<N>> parts_;

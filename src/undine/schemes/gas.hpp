@@ -60,6 +60,7 @@ class Gas : public Flow<N> {
   Gas(Store<N> store, const Domain<N>& domain, std::shared_ptr<const Options> options);
   void prepare() override;
   std::vector<double*> remembered() override;
+  WallVolume wall_volume() const override { return WallVolume::present; }
   std::vector<typename Flow<N>::Evolved> evolved() const override;
   void configure();
   void make_plan();

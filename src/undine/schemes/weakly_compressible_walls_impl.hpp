@@ -60,9 +60,7 @@ void WeaklyCompressible<N>::add_mirror_stage() {
   Resources writes(Group::wall, Fields<rho>::set());
   if (holds()) writes.add(Group::wall, Fields<v_friction>::set());
   plan_.add({"wall mirror", reads, writes, [this] {
-               const SweepContext<N> run = this->context();
-               const InterpolationSource<N> source{store_, neighbours_, domain_,
-                                                   run.kernels[static_cast<int>(KernelRole::density)], run.support};
+               const InterpolationSource<N> source = this->interpolation_source();
                const auto& walls = options_.walls;
                const auto at = store_.template get<x>();
                const auto own = store_.template get<v>();

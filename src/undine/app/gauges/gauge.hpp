@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "undine/core/catalogue.hpp"
-#include "undine/engine/interpolate.hpp"
 #include "undine/geometry/embed.hpp"
 #include "undine/geometry/surface.hpp"
 #include "undine/io/case/table.hpp"
@@ -91,14 +90,6 @@ void require_walls(const Table& table, const GaugeContext<N>& context) {
   if (!context.walls || context.walls->empty())
     table.fail("type", "this gauge needs a wall with a shape", "it measures distances to the walls' surfaces",
                "add a [[wall]] with a shape, or remove the gauge");
-}
-
-template <int N>
-InterpolationSource<N> source_of(const Flow<N>& flow) {
-  Support support = flow.options().support;
-  support.per_particle = flow.options().supports_vary();
-  return {flow.store(), flow.neighbours(), flow.domain(),
-          flow.options().kernels[static_cast<std::size_t>(KernelRole::density)], support};
 }
 
 }  // namespace gauges

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "undine/app/gauges/gauge.hpp"
+#include "undine/engine/interpolate.hpp"
 
 namespace undine::gauges {
 
@@ -42,7 +43,7 @@ class Height : public Gauge<N> {
   std::vector<SeriesColumn> columns() const override { return {{"height", "m"}}; }
 
   std::vector<double> read(const Flow<N>& flow) const override {
-    const auto source = source_of(flow);
+    const auto source = flow.interpolation_source();
     const double step = std::abs(to_ - from_) / static_cast<double>(intervals_);
     double wetted = 0, surface = 0;
     const bool ghosts = flow.options().mirrors != nullptr;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "undine/app/gauges/gauge.hpp"
+#include "undine/engine/interpolate.hpp"
 
 namespace undine::gauges {
 
@@ -34,7 +35,7 @@ class Probe : public Gauge<N> {
   }
 
   std::vector<double> read(const Flow<N>& flow) const override {
-    Interpolated<N> here = interpolate(source_of(flow), at_);
+    Interpolated<N> here = interpolate(flow.interpolation_source(), at_);
     if (here.weight < wet_) here = {};  // a sensor in the air, with a drop on it at most
     const double scale = shepard_ ? 1 : here.weight;
     std::vector<double> row;

@@ -71,7 +71,7 @@ std::vector<SeriesColumn> Profile<N>::columns() const {
 
 template <int N>
 std::vector<double> Profile<N>::read(const Flow<N>& flow) const {
-  const InterpolationSource<N> source = source_of(flow);
+  const InterpolationSource<N> source = flow.interpolation_source();
   double error = 0, size = 0, largest = 0;
   std::vector<double> row{0, 0, 0};
   for (const Point& point : points_) {

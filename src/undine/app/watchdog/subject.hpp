@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <limits>
 
 #include "undine/app/case_setup.hpp"
 #include "undine/app/watchdog/watch.hpp"
@@ -24,8 +23,7 @@ typename Watch<N>::Subject watch_subject(const CaseSetup<N>& setup) {
   for (const auto& material : options.materials) {
     const double sound = material.sound_speed(material.rho_0);
     if (sound > 0) subject.largest_step = std::min(subject.largest_step, limits.courant * h / sound);
-    if (liquid->viscosity && material.mu > 0)
-      subject.largest_step = std::min(subject.largest_step, limits.viscous * sq(h) * material.rho_0 / material.mu);
+    if (liquid->viscosity) subject.largest_step = std::min(subject.largest_step, viscous_step(limits, h, material));
   }
   if (limits.fixed > 0) subject.largest_step = 0;
   return subject;

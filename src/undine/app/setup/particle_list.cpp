@@ -1,13 +1,11 @@
-#include "undine/app/case_particles.hpp"
+#include "undine/app/setup/particle_list.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
+#include "undine/app/case_shapes.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/geometry/points.hpp"
@@ -18,7 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double bytes_per_particle = 500;  ///< fields and neighbour lists, about
+/// Particles that a case takes from a file.
+struct ParticleList {
+  std::vector<Vec3> points;
+  std::map<std::string, std::vector<double>> given;  ///< columns, as of a body
+  bool of_a_run = false;                             ///< from a snapshot: as a run left them
+};
 
 ParticleList read_csv_list(const Table& table, const fs::path& file, int dimensions) {
   auto rows = load_points_csv(file.string(), dimensions);
@@ -97,51 +100,17 @@ void check_values(const Table& table, const fs::path& file, const ParticleList& 
   }
 }
 
-/// Bytes that a run may take: the machine's, or less where the process or UNDINE_MEMORY (in bytes) is limited to less.
-double memory_here() {
-  double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (rlimit limit{}; getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-    memory = std::min(memory, static_cast<double>(limit.rlim_cur));
-  if (const char* allowed = std::getenv("UNDINE_MEMORY"))
-    if (const double bytes = std::strtod(allowed, nullptr); bytes > 0) memory = std::min(memory, bytes);
-  return memory;
-}
-
 }  // namespace
 
-fs::path existing_file(const Table& table, std::string_view key) {
-  const fs::path file = table.path(key);
-  std::error_code failure;
-  if (!fs::is_regular_file(file, failure))
-    table.fail(key, fmt::format("there is no file '{}'", file.string()), {},
-               "check the path; names are relative to the case file's folder");
-  return file;
-}
-
-ParticleList read_particle_list(const Table& table, int dimensions, Group group) {
+void take_particle_list(Body& body, int dimensions) {
+  const Table& table = body.table;
   const fs::path file = existing_file(table, "particles");
   ParticleList list = file.extension() == ".csv" ? read_csv_list(table, file, dimensions)
-                                                 : read_snapshot_list(table, file, dimensions, group);
+                                                 : read_snapshot_list(table, file, dimensions, body.group);
   check_values(table, file, list);
-  return list;
-}
-
-void check_room(const Table& table, double count, double spacing) {
-  const double memory = memory_here();
-  if (count * bytes_per_particle <= memory) return;
-  throw InputError(
-      {.what = "the spacing makes more particles than this machine can hold",
-       .where = table.where(),
-       .why = fmt::format("about {:.2g} particles {:.4g} m apart would take {:.2g} GB of the {:.2g} GB here", count,
-                          spacing, count * bytes_per_particle * 1e-9, memory * 1e-9),
-       .fix = "choose a larger spacing or a smaller body; lengths are in metres"});
-}
-
-double lattice_points(const Bounds& box, double spacing, double margin, int dimensions) {
-  const double least = margin < 0 ? 0 : 1;  // a flat box holds one layer, what is inside its skin may be nothing
-  double count = 1;
-  for (int k = 0; k < dimensions; ++k) count *= std::max(least, (box.hi[k] - box.lo[k] + 2 * margin) / spacing);
-  return count;
+  body.of_a_run = list.of_a_run;
+  body.points = std::move(list.points);
+  body.given = std::move(list.given);
 }
 
 }  // namespace undine

@@ -21,8 +21,6 @@ class GhostWalls {
   /// `reach` of the fluid's sight, in m. Throws InputError where walls meet or stand so that ghosts cannot serve.
   std::shared_ptr<const walls::Mirrors<N>> mirrors(walls::Slip slip, double reach, const Domain<N>& domain) const;
 
-  std::size_t size() const { return tables_.size(); }
-
  private:
   std::vector<walls::Solid<N>> solids_;
   std::vector<Table> tables_;

@@ -1,4 +1,4 @@
-#include "undine/app/case_walls.hpp"
+#include "undine/app/setup/wall_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
-#include "undine/app/case_ghosts.hpp"
+#include "undine/app/setup/ghosts.hpp"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "undine/app/setup/filling.hpp"
 #include "undine/core/error.hpp"
 
 namespace undine {
@@ -60,13 +61,8 @@ void GhostWalls<N>::add(const Table& wall, const std::string& name, const Shape&
 template <int N>
 std::shared_ptr<const walls::Mirrors<N>> GhostWalls<N>::mirrors(walls::Slip slip, double reach,
                                                                 const Domain<N>& domain) const {
-  try {
-    return std::make_shared<walls::Mirrors<N>>(solids_, slip, reach, domain);
-  } catch (const InputError& error) {
-    auto parts = error.parts();
-    if (!tables_.empty()) parts.where = tables_.front().where();
-    throw InputError(std::move(parts));
-  }
+  const auto make = [&] { return std::make_shared<const walls::Mirrors<N>>(solids_, slip, reach, domain); };
+  return tables_.empty() ? make() : with_place(tables_.front(), make);
 }
 
 template class GhostWalls<1>;
