@@ -28,10 +28,10 @@ target_compile_definitions(undine_lib PUBLIC always_inline=unused)
 # Coverage, by which libFuzzer is led, of what reads files; the rest is not optimized where that takes most of the time
 # to compile and little to run.
 set(readers ${UNDINE_SOURCES})
-list(FILTER readers INCLUDE REGEX "/(io|geometry)/|/app/case_")
+list(FILTER readers INCLUDE REGEX "/(io|geometry)/|/app/(case_|setup/)")
 set(plain ${UNDINE_SOURCES})
 list(FILTER plain INCLUDE REGEX "/app/")
-list(FILTER plain EXCLUDE REGEX "/app/case_")
+list(FILTER plain EXCLUDE REGEX "/app/(case_|setup/)")
 set_source_files_properties(${plain} PROPERTIES COMPILE_OPTIONS -O0)
 if(UNDINE_FUZZ)
   set_source_files_properties(${readers} PROPERTIES COMPILE_OPTIONS -fsanitize=fuzzer-no-link)
