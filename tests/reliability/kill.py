@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""kill.py UNDINE [KILLS] [SEED]: kills a run with SIGKILL at random moments, resumes it each time, and compares its end with that of a run
-that nobody killed: the checksum over all fields of the last checkpoint, and every series. Prints how many were lost."""
+"""kill.py UNDINE [KILLS] [SEED]: kills a run with SIGKILL at random moments, resumes it each time, kills every second one once more while it goes on, and compares
+its end with that of a run that nobody killed: the checksum over all fields of the last checkpoint, and every series. Prints how many were lost."""
 import os
 import random
 import shutil
@@ -36,7 +36,7 @@ def main(program, kills, seed):
         length = time.monotonic() - begun
         wanted = checksum(program, checkpoints(whole)[-1])
         series = [text(os.path.join(whole, name)) for name in ("energies.csv", "steps.csv", "particles.vtkhdf.series")]
-        lost, done, before, late = 0, 0, 0, 0
+        lost, done, before, late, twice = 0, 0, 0, 0, 0
         while done < kills:
             out = os.path.join(folder, "run")
             shutil.rmtree(out, ignore_errors=True)
@@ -47,13 +47,19 @@ def main(program, kills, seed):
                 continue
             done += 1
             before += not checkpoints(out)
+            if done % 2:  # at its opening or soon after, where it cuts series back
+                process = start(program, case, out, "--resume")
+                time.sleep(random.uniform(0, 0.5 * length))
+                process.kill()
+                twice += process.wait() == -9
             undine(program, "run", case, "--out", out, "--quiet", "--resume", expect=None)
             same = [text(os.path.join(out, name)) for name in ("energies.csv", "steps.csv", "particles.vtkhdf.series")] == series
             left = [name for name in os.listdir(out) if name.endswith(".tmp")]
             if not checkpoints(out) or checksum(program, checkpoints(out)[-1]) != wanted or not same or left:
                 lost += 1
                 print(f"lost: kill {done}, {sorted(os.listdir(out))}")
-        require(lost == 0, f"{kills} kills at random moments of a run of {length:.2f} s ({before} of them before its first checkpoint): {lost} lost")
+        require(lost == 0, f"{kills} kills at random moments of a run of {length:.2f} s ({before} of them before its first checkpoint, {twice} once more after "
+                           f"--resume): {lost} lost")
 
 
 if __name__ == "__main__":

@@ -164,7 +164,7 @@ void write(const std::filesystem::path& folder, const Wanted& wanted, const std:
   for (const EndRow& row : end_of_support(wanted.options, which.method, which.order))
     ends += line_of({fmt::format("{:.1f}", row.distance), cell(row.one), cell(row.gradient_of_one), cell(row.x_error),
                      cell(row.gradient_of_x)});
-  prepare_output_folder(folder, FolderMode::overwrite);
+  const FolderClaim claim = prepare_output_folder(folder, FolderMode::overwrite);
   std::filesystem::create_directories(folder / "gauges");
   write_text_atomically(folder / "gauges" / "polynomials.csv", polynomials);
   write_text_atomically(folder / "gauges" / "refinement.csv", refinement);

@@ -12,6 +12,7 @@
 #include "undine/app/picture/picture_command.hpp"
 #include "undine/app/report/report.hpp"
 #include "undine/app/run_options.hpp"
+#include "undine/app/spinning.hpp"
 #include "undine/app/study/study.hpp"
 #include "undine/app/study/verify.hpp"
 #include "undine/app/view/view.hpp"
@@ -158,6 +159,7 @@ int execute(int argc, char** argv) {
     return app.exit(error) == 0 ? exit_ok : exit_input;
   }
   run_options.verbosity = json ? Verbosity::json : quiet ? Verbosity::quiet : Verbosity::normal;
+  if ((run->parsed() && run_options.threads != 1) || approximate->parsed() || bench->parsed()) bound_spinning(argv);
   if (run->parsed()) return run_case(run_options);
   if (check->parsed()) return check_case(check_options);
   if (study->parsed()) return run_study(study_options);

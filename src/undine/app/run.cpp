@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -25,8 +26,23 @@
 namespace undine {
 namespace {
 
-std::atomic<bool> interrupted{false};
-void on_signal(int) { interrupted = true; }
+using Clock = std::chrono::steady_clock;
+
+std::atomic<bool> interrupted{false}, signalled{false};
+std::atomic<Clock::time_point> first_signal;
+
+/// Ends the run after its step. A second signal ends the process at once, as its files are whole at any time; but not
+/// one within a second, as the terminal and the study that a run belongs to both pass on the first.
+void on_signal(int number) {
+  interrupted = true;
+  const auto now = Clock::now();
+  if (!signalled.exchange(true)) {
+    first_signal = now;
+  } else if (now - first_signal.load() > std::chrono::seconds(1)) {
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+  }
+}
 
 /// One run of N dimensions, from the document to the report.
 template <int N>
@@ -65,9 +81,9 @@ class Run {
       throw;
     }
     talk_.progress(*flow_, pace_, step_, true);
-    record(interrupted ? "interrupted" : "finished");
+    record(is_at_end() ? "finished" : "interrupted");
     talk_.summary(*flow_, pace_, *energies_, gauges_.compare());
-    if (interrupted) return exit_interrupted;
+    if (!is_at_end()) return exit_interrupted;
     report();
     return exit_ok;
   }
@@ -76,11 +92,14 @@ class Run {
   /// From the case or from a checkpoint to a flow, and files that wait for what comes. Whether it was a checkpoint.
   bool open() {
     std::optional<FoundCheckpoint> found;
+    if (options_.resume) claim_ = FolderClaim::of(output_.folder);  // before what another run writes is read
     const bool unbegun = options_.resume && checkpoints_->began_without();
     if (options_.resume && !unbegun) found = checkpoints_->read_newest();
-    prepare_output_folder(output_.folder, options_.resume      ? FolderMode::resume
-                                          : options_.overwrite ? FolderMode::overwrite
-                                                               : FolderMode::fresh);
+    claim_ = prepare_output_folder(output_.folder,
+                                   options_.resume      ? FolderMode::resume
+                                   : options_.overwrite ? FolderMode::overwrite
+                                                        : FolderMode::fresh,
+                                   std::move(claim_));
     control_.begin(output_.folder, options_.control);
     pace_.listens = control_.enabled();
     if (unbegun) talk_.warn("the earlier run ended before its first checkpoint; this one starts from the beginning");
@@ -89,6 +108,9 @@ class Run {
     watch_.emplace(limits_, watch_subject(setup_), setup_.options().materials);
     flow_ = flow_of_case(setup_, found ? &found->checkpoint : nullptr);
 
+    for (const char* name : {"energies.csv", "steps.csv"})
+      if (found && !std::filesystem::exists(output_.folder / name))
+        talk_.warn(fmt::format("{} of the earlier run is gone; its rows begin anew", name));
     const double resumed_at = found ? flow_->time() : -1;
     const auto list = output_.folder / "particles.vtkhdf.series";
     energies_.emplace(output_.folder, found.has_value(), resumed_at);
@@ -133,7 +155,7 @@ class Run {
         pace_.paused = control_.paused();
         talk_.progress(*flow_, pace_, step_, true);
       });
-      const bool last = flow_->time() >= setup_.choice.end * (1 - 1e-12) || interrupted;
+      const bool last = is_at_end() || interrupted;
       const bool first = before_ < 0;
       const bool keeps_state = last || first || clock_.due(before_, flow_->time());
       if (keeps_state || look_is_due()) look();
@@ -154,6 +176,8 @@ class Run {
       watch_->quickly(*flow_);
     }
   }
+
+  bool is_at_end() const { return flow_->time() >= setup_.choice.end * (1 - 1e-12); }
 
   bool look_is_due() const {
     const std::int64_t since = pace_.step - looked_at_;
@@ -199,19 +223,16 @@ class Run {
   [[noreturn]] void go_bad(const RunError& error) {
     const auto* alarm = dynamic_cast<const AlarmError*>(&error);
     const auto hit = alarm ? std::optional(alarm->hit()) : hit_of(error, *flow_);
-    if (!hit) {  // the error says all that there is to say
-      record("went bad");
-      report();
-      throw;
-    }
+    if (!hit) bad_without_cause();  // the error says all that there is to say
     if (talk_.normal()) fmt::print(stderr, "\n{}\nlooking for the cause\n", error.what());
     const AlarmedRun alarmed{.hit = *hit,
                              .time = flow_->time(),
                              .dt = step_.dt,
                              .step = pace_.step + (moment_ == Moment::within_step ? 1 : 0),
                              .last_good = pace_.step - (knows_state_is_bad() ? 1 : 0)};
-    const Examined found =
-        examine(alarmed, *flow_, document_, output_.folder, *checkpoints_, [] { return interrupted.load(); });
+    const auto examined = examine_if_possible(alarmed);
+    if (!examined) bad_without_cause();
+    const Examined& found = *examined;
     const std::string text = diagnosis_text(found.diagnosis, found.evidence);
     if (talk_.normal()) fmt::print(stderr, "\n{}\n", text);
     const auto file = output_.folder / "diagnosis.txt";
@@ -225,6 +246,23 @@ class Run {
                     .where = {file.string()},
                     .why = fmt::format("{}: {}", found.diagnosis.cause, found.diagnosis.because),
                     .fix = found.diagnosis.remedy});
+  }
+
+  /// Nothing where a file that the case names has changed or gone since the run began.
+  std::optional<Examined> examine_if_possible(const AlarmedRun& alarmed) const {
+    try {
+      return examine(alarmed, *flow_, document_, output_.folder, *checkpoints_, [] { return interrupted.load(); });
+    } catch (const InputError& error) {
+      talk_.warn(fmt::format("the case cannot be read again to look for the cause: {}", error.what()));
+      return {};
+    }
+  }
+
+  /// Throws on the error that is being handled.
+  [[noreturn]] void bad_without_cause() const {
+    record_if_possible("went bad", {});
+    report();
+    throw;
   }
 
   void record(const std::string& status, const Json& more = Json::object()) const {
@@ -277,6 +315,7 @@ class Run {
   RunTalk<N> talk_;
   CheckpointClock clock_;
   std::optional<Checkpoints> checkpoints_;
+  FolderClaim claim_;
   std::optional<Watch<N>> watch_;
   std::unique_ptr<Flow<N>> flow_;
   std::optional<EnergySeries<N>> energies_;

@@ -84,6 +84,21 @@ const std::vector<Planted>& planted() {
          gas(e);
          e.alarm = Alarm::energy;
        }},
+      {"too_few_particles",
+       [](Evidence& e) {
+         gas(e);
+         e.alarm = Alarm::support;
+         e.setup.least_company = 2.2;
+         e.exit.company = 2;
+         e.setup.room = 0.1;
+         e.exit.widest = 0.101;  // where it also outgrew its room, more room would not help
+       },
+       [](Evidence& e) {
+         gas(e);
+         e.alarm = Alarm::support;
+         e.setup.least_company = 2.2;
+         e.exit.company = 3;
+       }},
       {"no_room_for_support",
        [](Evidence& e) {
          gas(e);

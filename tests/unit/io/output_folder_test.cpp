@@ -18,7 +18,7 @@ using test::write_bytes;
 namespace fs = std::filesystem;
 
 std::string refusal(const fs::path& folder, FolderMode mode) {
-  const std::string error = error_of([&] { prepare_output_folder(folder, mode); });
+  const std::string error = error_of([&] { const FolderClaim claim = prepare_output_folder(folder, mode); });
   if (!error.empty()) {
     EXPECT_NE(error.find(folder.string()), error.npos) << error;
     EXPECT_NE(error.find("fix: "), error.npos) << error;
@@ -56,9 +56,31 @@ TEST(OutputFolder, ResumeKeepsEverything) {
   EXPECT_NE(refusal(folder / "missing", FolderMode::resume).find("does not exist"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "missing"));
   EXPECT_NE(refusal(folder.path(), FolderMode::resume).find("empty"), std::string::npos);
-  write_bytes(folder / "a.checkpoint", "state");
+  for (const char* name : {"a.checkpoint", "energies.csv", "run.json", "a.checkpoint.tmp", "diagnosis.txt"})
+    write_bytes(folder / name, "state");
   EXPECT_EQ(refusal(folder.path(), FolderMode::resume), "");
-  EXPECT_EQ(read_bytes(folder / "a.checkpoint"), "state");
+  for (const char* name : {"a.checkpoint", "energies.csv", "run.json"}) EXPECT_EQ(read_bytes(folder / name), "state");
+  EXPECT_FALSE(fs::exists(folder / "a.checkpoint.tmp"));  // half written
+  EXPECT_FALSE(fs::exists(folder / "diagnosis.txt"));     // of the run that this one goes on with
+}
+
+TEST(OutputFolder, OneRunAtATimeWritesToIt) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of([&] { FolderClaim::of(folder / "run"); }), "");  // no run wrote there
+  EXPECT_FALSE(fs::exists(folder / "run"));
+  {
+    FolderClaim first = prepare_output_folder(folder / "run", FolderMode::fresh);
+    write_bytes(folder / "run" / "a.checkpoint.tmp", "half");
+    for (const auto mode : {FolderMode::resume, FolderMode::overwrite})
+      EXPECT_NE(refusal(folder / "run", mode).find("another run is writing to it"), std::string::npos);
+    EXPECT_NE(error_of([&] { FolderClaim::of(folder / "run"); }), "");
+    EXPECT_EQ(read_bytes(folder / "run" / "a.checkpoint.tmp"), "half");
+    // Who has it may prepare the folder.
+    EXPECT_EQ(error_of([&] { first = prepare_output_folder(folder / "run", FolderMode::resume, std::move(first)); }),
+              "");
+    EXPECT_NE(refusal(folder / "run", FolderMode::resume), "");
+  }
+  EXPECT_EQ(refusal(folder / "run", FolderMode::resume), "");
 }
 
 TEST(OutputFolder, OverwriteRemovesOnlyWhatARunWrote) {
@@ -72,11 +94,17 @@ TEST(OutputFolder, OverwriteRemovesOnlyWhatARunWrote) {
   for (const char* name : {"a_0001.vtkhdf", "a.vtkhdf.series", "last.checkpoint", "a.csv.tmp", "notes.txt", "a.csv"})
     write_bytes(folder / "run" / name, "old");
   fs::create_directory(folder / "run" / "sub.vtkhdf");
+  fs::create_directory(folder / "run" / "gauges");
+  for (const char* name : {"run.json", "progress.json", "energies.csv", "gauges/probe.csv", "gauges/notes.txt"})
+    write_bytes(folder / "run" / name, "old");
   EXPECT_EQ(refusal(folder / "run", FolderMode::overwrite), "");
   EXPECT_FALSE(fs::exists(folder / "run" / "a_0001.vtkhdf"));
   EXPECT_FALSE(fs::exists(folder / "run" / "a.vtkhdf.series"));
   EXPECT_FALSE(fs::exists(folder / "run" / "last.checkpoint"));
   EXPECT_FALSE(fs::exists(folder / "run" / "a.csv.tmp"));
+  for (const char* name : {"run.json", "progress.json", "energies.csv", "gauges/probe.csv"})
+    EXPECT_FALSE(fs::exists(folder / "run" / name)) << name;  // would pass for this run's if it were killed early
+  EXPECT_TRUE(fs::exists(folder / "run" / "gauges" / "notes.txt"));
   EXPECT_TRUE(fs::exists(folder / "run" / "notes.txt"));
   EXPECT_TRUE(fs::exists(folder / "run" / "a.csv"));
   EXPECT_TRUE(fs::exists(folder / "run" / "sub.vtkhdf"));

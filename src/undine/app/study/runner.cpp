@@ -154,9 +154,11 @@ class Runner {
   void spawn(std::size_t index) {
     Member& member = members_[index];
     const bool resume = member.status == Status::interrupted && has_checkpoint(member.folder);
-    prepare_output_folder(member.folder, resume ? FolderMode::resume : FolderMode::overwrite);
-    if (!resume)  // what an earlier run left would pass for this one's if it died at once
-      for (const char* old : {"run.json", "energies.csv", "gauges"}) fs::remove_all(member.folder / old);
+    // What an earlier run left would pass for this one's if it died at once. The claim is the member's own again.
+    {
+      const FolderClaim claim =
+          prepare_output_folder(member.folder, resume ? FolderMode::resume : FolderMode::overwrite);
+    }
     auto words = run_words(member, members_, resume);
     words.insert(words.begin(), "undine");
     std::vector<char*> pointers;

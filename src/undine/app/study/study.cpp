@@ -85,7 +85,7 @@ int run_study(const StudyOptions& options) {
     return exit_ok;
   }
 
-  prepare_output_folder(study.out, FolderMode::overwrite);
+  const FolderClaim claim = prepare_output_folder(study.out, FolderMode::overwrite);
   Progress progress(options, members);
   for (const Member& member : members)
     if (member.chosen && member.status == Status::failed) progress(member);

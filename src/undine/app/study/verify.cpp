@@ -237,8 +237,9 @@ int run_verify(const VerifyOptions& options) {
 
   std::vector<Verification> all;
   for (const Candidate& candidate : chosen) all.push_back(prepare_one(candidate, out, options, maker));
-  prepare_output_folder(out, FolderMode::overwrite);
-  for (const Verification& each : all) prepare_output_folder(each.study.out, FolderMode::overwrite);
+  std::vector<FolderClaim> claims;
+  claims.push_back(prepare_output_folder(out, FolderMode::overwrite));
+  for (const Verification& each : all) claims.push_back(prepare_output_folder(each.study.out, FolderMode::overwrite));
   const bool complete = run_all(all, options.jobs);
 
   std::vector<Line> lines;

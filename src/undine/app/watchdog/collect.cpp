@@ -142,6 +142,16 @@ std::size_t index_of(const Store<N>& store, std::int64_t id) {
   return static_cast<std::size_t>(std::ranges::find(store.ids(), id) - store.ids().begin());
 }
 
+/// See Evidence::Exit::company.
+template <int N>
+double company_of(const Store<N>& store, const GasOptions<N>& gas, std::size_t i) {
+  using terms::GradHDensities;
+  const IndexRange fluid = store.range(Group::fluid);
+  if (gas.grad_h.index() == GradHDensities::index<terms::DensityGradH>()) return static_cast<double>(fluid.size());
+  const auto mass = store.template get<m>();
+  return total_over(store, Group::fluid, [&](std::size_t b) { return mass[b]; }) / mass[i];
+}
+
 }  // namespace
 
 template <int N>
@@ -175,7 +185,10 @@ void collect_case(Evidence& e, const CaseSetup<N>& setup, const std::map<std::st
     if (gas->stress)
       for (const auto& material : options.materials) c.viscosity = std::max(c.viscosity, material.mu / material.rho_0);
     c.sound_speed = 0;  // of the gas as it is
+    const KernelChoice& kernel = options.kernels[static_cast<std::size_t>(KernelRole::density)];
+    if (gas->iterates()) c.least_company = std::pow(gas->support_over_spacing, N) / kernel.template w<N>(0.0);
   }
+  c.removes = options.lets_escape;
   c.ghosts = setup.choice.ghosts.has_value();
   if (c.ghosts) c.room = std::max(options.mirrored_support, options.support.uniform);
   for (int k = 0; k < N; ++k)
@@ -290,7 +303,9 @@ void collect_exit(Evidence& e, const Flow<N>& flow, const CaseSetup<N>& setup) {
   const Store<N>& store = flow.store();
   for (const double H : store.template get<h>()) e.exit.widest = std::max(e.exit.widest, H);
   const std::size_t i = index_of(store, e.particle.id);
-  if (e.alarm != Alarm::outside || i >= store.size()) return;
+  if (i >= store.size()) return;
+  if (const auto* gas = std::get_if<GasOptions<N>>(&setup.scheme)) e.exit.company = company_of(store, *gas, i);
+  if (e.alarm != Alarm::outside) return;
   const Vec<N> at = store.template get<x>()[i];
   e.exit.left = true;
   e.exit.speed = norm(store.template get<v>()[i]);

@@ -57,6 +57,8 @@ struct Evidence {
     bool gas = false;             ///< whether particles have an internal energy
     bool follows = false;         ///< whether H follows the density of a gas
     bool shares_work = false;     ///< whether the work of a gas's pressure is halved between the particles of a pair
+    double least_company = 0;     ///< q^N/(H^N W(0)): what `company` must be for an H that belongs to a density
+    bool removes = false;         ///< whether what leaves the domain is taken out
     bool ghosts = false;          ///< whether walls mirror the fluid
     double room = std::numeric_limits<double>::infinity();  ///< m, the largest H that ghosts and periods serve
     bool fixed_step = false;
@@ -100,6 +102,8 @@ struct Evidence {
     bool downwards = false, upwards = false;  ///< through the face that gravity points to, or the one above
     double speed = 0;                         ///< m/s
     double widest = 0;                        ///< m, the largest H then
+    /// What the widest support could sum at most: the mass of all fluid over the particle's own, or their number.
+    double company = std::numeric_limits<double>::infinity();
   } exit;
 
   double h() const { return setup.support / setup.kappa; }

@@ -22,6 +22,7 @@ using Causes = Catalogue<      //
     StepOverViscous,           //
     OneParticleTakesTheStep,   //
     SharedWork,                //
+    TooFewParticles,           //
     NoRoomForSupport,          //
     SupportWithoutNeighbours,  //
     WallTooThin,               //

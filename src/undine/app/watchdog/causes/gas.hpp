@@ -24,6 +24,27 @@ struct SharedWork {
   }
 };
 
+/// However large its H, a particle sums no more than sum_b m_b W(0): with few others around, or light ones, that is too
+/// little for any H.
+struct TooFewParticles {
+  static constexpr Info info{"too_few_particles", "The gas has too few particles for a support",
+                             "no H gives rho H^N = m q^N: sum_b m_b H^N W(0) < m_a q^N",
+                             "Springel & Hernquist (2002); Price (2012)"};
+  static bool holds(const Evidence& e) { return e.alarm == Alarm::support && e.exit.company < e.setup.least_company; }
+  static std::string because(const Evidence& e) {
+    return fmt::format(
+        "all particles together count as {:.3g} like particle {}; within an H that fits a density there are {:.3g} or "
+        "more",
+        e.exit.company, e.particle.id, e.setup.least_company);
+  }
+  static std::string remedy(const Evidence& e) {
+    if (e.setup.removes && e.step > 0)
+      return "widen [domain] or set an earlier time.end, so that not nearly all of the gas has left; more particles "
+             "(spacing) help for a while";
+    return "take more particles (a smaller spacing), of masses that are alike";
+  }
+};
+
 struct NoRoomForSupport {
   static constexpr Info info{"no_room_for_support", "The support grew beyond what walls or periods have room for",
                              "H > what ghosts were checked for, or half a period", "Niedoba (2012), 2.2.5"};
