@@ -5,15 +5,18 @@
     alarm        a run that went bad and is resumed goes bad again, at the same step; without the watchdog it goes on, and nothing says any more that it
                  went bad; a particle list that is gone by then hides neither the alarm nor its exit code; SIGINT ends the way back early
     twice        a second SIGINT ends a run at once, within a long step, and leaves its checkpoint whole
+    unheard      a run whose reader goes, or whose terminal does under nohup, goes on; one whose terminal is closed ends with a checkpoint; both with the same bits
     spinning     threads wait as the environment says, and briefly where it says nothing; signals and exit codes are those of one process"""
+import fcntl
 import os
 import signal
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 
-from common import ONE_THREAD, checkpoints, checksum, record, require, small_case, text, undine
+from common import ONE_THREAD, checkpoints, checksum, record, require, small_case, snapshots, text, undine
 
 
 def start(program, *words, env=None, **more):
@@ -105,6 +108,42 @@ def twice(program, place):
     require(len(checksum(program, checkpoints(out)[-1])) == 16, "its last checkpoint is whole")
 
 
+def unheard(program, place):
+    case, whole = small_case(place, end=0.5, checkpoints=0), os.path.join(place, "whole")
+    undine(program, "run", case, "--out", whole, "--quiet")
+    wanted = checksum(program, checkpoints(whole)[-1])
+
+    # Talks a line to a pipe at its end, and before.
+    out = os.path.join(place, "pipe")
+    process = subprocess.Popen([program, "run", case, "--out", out], env=ONE_THREAD, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    process.stdout.close()
+    code = process.wait(timeout=120)
+    require(code == 0 and record(out)["status"] == "finished" and checksum(program, checkpoints(out)[-1]) == wanted, f"nobody reads its pipe: exit {code}")
+
+    def in_terminal(name, hang_up, seconds):
+        """Its terminal is closed after three snapshots."""
+        out = os.path.join(place, name)
+        control, terminal = os.openpty()
+
+        def begin():
+            os.setsid()
+            fcntl.ioctl(terminal, termios.TIOCSCTTY, 0)
+            signal.signal(signal.SIGHUP, hang_up)
+
+        process = subprocess.Popen([program, "run", case, "--out", out], env=ONE_THREAD, stdin=terminal, stdout=terminal, stderr=terminal, preexec_fn=begin)
+        os.close(terminal)
+        wait_for(lambda: len(snapshots(out)) >= 3, process)
+        os.close(control)
+        return out, process.wait(timeout=seconds)
+
+    out, code = in_terminal("nohup", signal.SIG_IGN, 120)
+    require(code == 0 and record(out)["status"] == "finished" and checksum(program, checkpoints(out)[-1]) == wanted, f"its terminal is closed under nohup: exit {code}")
+    out, code = in_terminal("terminal", signal.SIG_DFL, 30)
+    require(code == 130 and record(out)["status"] == "interrupted", f"its terminal is closed: exit {code}, {record(out)['status']}")
+    undine(program, "run", case, "--out", out, "--quiet", "--resume")
+    require(checksum(program, checkpoints(out)[-1]) == wanted, "resumed, it ends with the same bits")
+
+
 def spinning(program, place):
     case = small_case(place, end=30, snapshots=0)
     plain = {key: value for key, value in os.environ.items() if not key.startswith(("OMP_", "GOMP_"))}
@@ -128,4 +167,4 @@ def spinning(program, place):
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory(prefix="undine_disturb_") as here:
-        {check.__name__: check for check in (folder, alarm, twice, spinning)}[sys.argv[2]](os.path.abspath(sys.argv[1]), here)
+        {check.__name__: check for check in (folder, alarm, twice, unheard, spinning)}[sys.argv[2]](os.path.abspath(sys.argv[1]), here)

@@ -15,6 +15,7 @@
 #include "undine/app/spinning.hpp"
 #include "undine/app/study/study.hpp"
 #include "undine/app/study/verify.hpp"
+#include "undine/app/tell.hpp"
 #include "undine/app/view/view.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
@@ -189,16 +190,16 @@ int main(int argc, char** argv) {
   try {
     return execute(argc, argv);
   } catch (const InputError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    tell(stderr, "error: {}\n", error.what());
     return exit_input;
   } catch (const RunError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    tell(stderr, "error: {}\n", error.what());
     return exit_run;
   } catch (const Error& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    tell(stderr, "error: {}\n", error.what());
     return exit_output;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}\n", error.what());
+    tell(stderr, "internal error: {}\n", error.what());
     return exit_internal;
   }
 }

@@ -18,6 +18,7 @@
 #include "undine/app/run_control.hpp"
 #include "undine/app/run_output.hpp"
 #include "undine/app/run_talk.hpp"
+#include "undine/app/tell.hpp"
 #include "undine/app/watchdog/post_mortem.hpp"
 #include "undine/app/watchdog/subject.hpp"
 #include "undine/core/stopwatch.hpp"
@@ -65,9 +66,11 @@ class Run {
   void describe() const { talk_.describe(); }
 
   int run() {
+    std::signal(SIGPIPE, SIG_IGN);  // who reads what is told may go
     const bool resumed = open();
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    if (std::signal(SIGHUP, SIG_IGN) != SIG_IGN) std::signal(SIGHUP, on_signal);  // not under nohup
     try {
       if (!resumed) begin();
       record("running");
@@ -224,7 +227,7 @@ class Run {
     const auto* alarm = dynamic_cast<const AlarmError*>(&error);
     const auto hit = alarm ? std::optional(alarm->hit()) : hit_of(error, *flow_);
     if (!hit) bad_without_cause();  // the error says all that there is to say
-    if (talk_.normal()) fmt::print(stderr, "\n{}\nlooking for the cause\n", error.what());
+    if (talk_.normal()) tell(stderr, "\n{}\nlooking for the cause\n", error.what());
     const AlarmedRun alarmed{.hit = *hit,
                              .time = flow_->time(),
                              .dt = step_.dt,
@@ -234,7 +237,7 @@ class Run {
     if (!examined) bad_without_cause();
     const Examined& found = *examined;
     const std::string text = diagnosis_text(found.diagnosis, found.evidence);
-    if (talk_.normal()) fmt::print(stderr, "\n{}\n", text);
+    if (talk_.normal()) tell(stderr, "\n{}\n", text);
     const auto file = output_.folder / "diagnosis.txt";
     try {
       write_text_atomically(file, text);
@@ -296,7 +299,7 @@ class Run {
     if (!output_.report) return;
     try {
       const WrittenReport written = write_report({.folder = output_.folder, .out = {}});
-      if (talk_.normal()) fmt::print("to look at in {}\n", written.file.string());
+      if (talk_.normal()) tell(stdout, "to look at in {}\n", written.file.string());
     } catch (const std::exception& error) {
       talk_.warn(fmt::format("no report was written: {}", error.what()));
     }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "undine/app/machine.hpp"
+#include "undine/app/tell.hpp"
 #include "undine/schemes/presets.hpp"
 
 namespace undine {
@@ -18,38 +19,38 @@ void RunTalk<N>::describe() const {
   const auto& o = setup_.options();
   const auto& store = setup_.store;
   const auto preset = presets::Presets::info(setup_.choice.preset).name;
-  fmt::print("{}\n", setup_.title.empty() ? options_.file.string() : setup_.title);
-  fmt::print("  particles   {} fluid, {} wall, spacing {:.4g} m, support {:.4g} m ({:.3g} spacings)\n",
-             store.range(Group::fluid).size(), store.range(Group::wall).size(), setup_.spacing, o.support.uniform,
-             o.support.uniform / setup_.spacing);
-  fmt::print("  scheme      {}: kernel {}, {}\n", preset, o.kernels[0].info().name, describe_terms<N>(setup_.scheme));
-  fmt::print("  backend     {} x {}, pairs in {}, search {}\n", backend_names[static_cast<int>(o.backend.kind)],
-             omp_get_max_threads(), precision_names[static_cast<int>(o.backend.precision)], o.neighbours.search);
+  tell(stdout, "{}\n", setup_.title.empty() ? options_.file.string() : setup_.title);
+  tell(stdout, "  particles   {} fluid, {} wall, spacing {:.4g} m, support {:.4g} m ({:.3g} spacings)\n",
+       store.range(Group::fluid).size(), store.range(Group::wall).size(), setup_.spacing, o.support.uniform,
+       o.support.uniform / setup_.spacing);
+  tell(stdout, "  scheme      {}: kernel {}, {}\n", preset, o.kernels[0].info().name, describe_terms<N>(setup_.scheme));
+  tell(stdout, "  backend     {} x {}, pairs in {}, search {}\n", backend_names[static_cast<int>(o.backend.kind)],
+       omp_get_max_threads(), precision_names[static_cast<int>(o.backend.precision)], o.neighbours.search);
   for (const auto& material : o.materials) {
-    fmt::print("  material    {}: rho_0 {:.6g} kg/m^3", material.name, material.rho_0);
+    tell(stdout, "  material    {}: rho_0 {:.6g} kg/m^3", material.name, material.rho_0);
     if (!setup_.choice.is_gas)
-      fmt::print(", c_0 {:.4g} m/s ({:.3g} x expected speed)", material.sound_speed(material.rho_0),
-                 material.sound_speed(material.rho_0) / setup_.expected_speed);
-    fmt::print(", mu {:.3g} Pa s\n", material.mu);
+      tell(stdout, ", c_0 {:.4g} m/s ({:.3g} x expected speed)", material.sound_speed(material.rho_0),
+           material.sound_speed(material.rho_0) / setup_.expected_speed);
+    tell(stdout, ", mu {:.3g} Pa s\n", material.mu);
   }
   const auto& limits = setup_.choice.limits;
-  fmt::print("  time        to {:.6g} s, {}, {}\n", setup_.choice.end, setup_.choice.integrator,
-             limits.fixed > 0 ? fmt::format("fixed step {:.4g} s", limits.fixed)
-                              : fmt::format("Courant number {:.3g}", limits.courant));
-  for (const auto& warning : setup_.warnings) fmt::print("  warning     {}\n", warning);
+  tell(stdout, "  time        to {:.6g} s, {}, {}\n", setup_.choice.end, setup_.choice.integrator,
+       limits.fixed > 0 ? fmt::format("fixed step {:.4g} s", limits.fixed)
+                        : fmt::format("Courant number {:.3g}", limits.courant));
+  for (const auto& warning : setup_.warnings) tell(stdout, "  warning     {}\n", warning);
   std::fflush(stdout);
 }
 
 template <int N>
 void RunTalk<N>::plan(const Flow<N>& flow) const {
   if (!normal()) return;
-  fmt::print("  evaluation  ");
+  tell(stdout, "  evaluation  ");
   const auto& stages = flow.plan().stages();
-  for (std::size_t k = 0; k < stages.size(); ++k) fmt::print("{}{}", k ? " -> " : "", stages[k].name);
+  for (std::size_t k = 0; k < stages.size(); ++k) tell(stdout, "{}{}", k ? " -> " : "", stages[k].name);
   path(flow);
-  fmt::print("  memory      {:.1f} MB fields, {:.1f} MB neighbour lists\n  output      {}\n",
-             static_cast<double>(flow.store().bytes()) * 1e-6, static_cast<double>(flow.neighbours().bytes()) * 1e-6,
-             output_.folder.string());
+  tell(stdout, "  memory      {:.1f} MB fields, {:.1f} MB neighbour lists\n  output      {}\n",
+       static_cast<double>(flow.store().bytes()) * 1e-6, static_cast<double>(flow.neighbours().bytes()) * 1e-6,
+       output_.folder.string());
   std::fflush(stdout);
 }
 
@@ -59,16 +60,16 @@ void RunTalk<N>::path(const Flow<N>& flow) const {
   const auto& backend = flow.options().backend;
   if (backend.kind == BackendKind::threads) {
     const bool best = backend.instructions == best_instructions();
-    fmt::print("\n  sweeps      all in packs of {}, {} instructions ({}), H {}\n",
-               backend.precision == PairPrecision::mixed ? "float" : "double",
-               instruction_set_names[static_cast<std::size_t>(backend.instructions)],
-               best ? "the widest here" : "named by the case",
-               flow.options().supports_vary() ? "of each pair" : "the same everywhere");
+    tell(stdout, "\n  sweeps      all in packs of {}, {} instructions ({}), H {}\n",
+         backend.precision == PairPrecision::mixed ? "float" : "double",
+         instruction_set_names[static_cast<std::size_t>(backend.instructions)],
+         best ? "the widest here" : "named by the case",
+         flow.options().supports_vary() ? "of each pair" : "the same everywhere");
   } else {
-    fmt::print("\n  sweeps      all one pair at a time in double (backend {})\n",
-               backend_names[static_cast<std::size_t>(backend.kind)]);
+    tell(stdout, "\n  sweeps      all one pair at a time in double (backend {})\n",
+         backend_names[static_cast<std::size_t>(backend.kind)]);
   }
-  fmt::print("  loops       {}\n  neighbours  {}\n", flow.describe_sweeps(), flow.neighbours().describe());
+  tell(stdout, "  loops       {}\n  neighbours  {}\n", flow.describe_sweeps(), flow.neighbours().describe());
 }
 
 template <int N>
@@ -96,12 +97,12 @@ void RunTalk<N>::progress(const Flow<N>& flow, const Pace& pace, const Step& ste
   if (!last && Pace::seconds_since(last_line_) < wait) return;
   last_line_ = Pace::Clock::now();
   if (options_.verbosity == Verbosity::json) {
-    fmt::print("{}\n", progress_line(flow, pace, step));
+    tell(stdout, "{}\n", progress_line(flow, pace, step));
   } else {
-    fmt::print(
-        "{}  {}t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
-        terminal ? "\r" : "", pace.paused ? "paused at " : "", flow.time(), pace.end, pace.step, step.dt, step.limiter,
-        pace.rate() * 1e-6, pace.remaining(flow.time()), terminal && !last ? "" : "\n");
+    tell(stdout,
+         "{}  {}t = {:.4f} of {:.4g} s, step {}, dt {:.3g} s ({}), {:.3g} M particle updates/s, {:.0f} s to go   {}",
+         terminal ? "\r" : "", pace.paused ? "paused at " : "", flow.time(), pace.end, pace.step, step.dt, step.limiter,
+         pace.rate() * 1e-6, pace.remaining(flow.time()), terminal && !last ? "" : "\n");
   }
   std::fflush(stdout);
 }
@@ -113,23 +114,23 @@ void RunTalk<N>::summary(const Flow<N>& flow, const Pace& pace, const EnergySeri
   const Energies e = flow.energies();
   const double total = pace.seconds();
   const auto share = [&](double seconds) { return 100 * seconds / total; };
-  fmt::print(
-      "\n{} steps in {:.1f} s: {:.3g} M particle updates/s; sweeps {:.0f} %, lists {:.0f} % ({} builds), output "
-      "{:.0f} %\n",
-      pace.step, total, pace.rate() * 1e-6, share(flow.seconds_sweeps()), share(flow.seconds_lists()),
-      flow.list_builds(), share(pace.seconds_output));
-  fmt::print(
-      "energy: kinetic {:.4g}, potential {:.4g}, elastic {:.4g} J; taken by viscosity {:.4g}, artificial {:.4g}, "
-      "diffusion {:.4g}, walls {:.4g} J\n",
-      e.kinetic, e.potential, e.elastic, e.ledger.viscous, e.ledger.artificial, e.ledger.diffusion, e.ledger.walls);
-  fmt::print("energy audit residual: {:.2e} of the initial potential energy\n", energies.relative_residual(e));
-  if (!comparisons.empty()) fmt::print("\n{}", comparison_table(comparisons));
-  fmt::print("results in {}\n", output_.folder.string());
+  tell(stdout,
+       "\n{} steps in {:.1f} s: {:.3g} M particle updates/s; sweeps {:.0f} %, lists {:.0f} % ({} builds), output "
+       "{:.0f} %\n",
+       pace.step, total, pace.rate() * 1e-6, share(flow.seconds_sweeps()), share(flow.seconds_lists()),
+       flow.list_builds(), share(pace.seconds_output));
+  tell(stdout,
+       "energy: kinetic {:.4g}, potential {:.4g}, elastic {:.4g} J; taken by viscosity {:.4g}, artificial {:.4g}, "
+       "diffusion {:.4g}, walls {:.4g} J\n",
+       e.kinetic, e.potential, e.elastic, e.ledger.viscous, e.ledger.artificial, e.ledger.diffusion, e.ledger.walls);
+  tell(stdout, "energy audit residual: {:.2e} of the initial potential energy\n", energies.relative_residual(e));
+  if (!comparisons.empty()) tell(stdout, "\n{}", comparison_table(comparisons));
+  tell(stdout, "results in {}\n", output_.folder.string());
 }
 
 template <int N>
 void RunTalk<N>::warn(const std::string& text) const {
-  fmt::print(stderr, "warning: {}\n", text);
+  tell(stderr, "warning: {}\n", text);
 }
 
 template <int N>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/schemes/gas_flow.hpp"
+#include "unit/under_sanitizer.hpp"
 
 // A point explosion in a periodic box, in whose middle H grows to several times that of its shell.
 

@@ -1,6 +1,7 @@
 #include "undine/app/study/runner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -29,25 +30,29 @@ constexpr std::size_t longest_error = 2000;  // bytes of a member's message that
 volatile std::sig_atomic_t stop_wanted = 0;
 void on_signal(int) { stop_wanted = 1; }
 
-/// Takes SIGINT and SIGTERM while it lives; waiting calls then return.
+/// Takes SIGINT, SIGTERM and SIGHUP (not where it is ignored, as under nohup) while it lives; waiting calls then
+/// return. Whoever reads what is told may go.
 class SignalGuard {
  public:
   SignalGuard() {
     struct sigaction action {};
     action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, &before_[0]);
-    sigaction(SIGTERM, &action, &before_[1]);
+    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &action, &before_[k]);
+    if (before_.back().sa_handler == SIG_IGN) std::signal(signals.back(), SIG_IGN);
+    before_pipe_ = std::signal(SIGPIPE, SIG_IGN);
     stop_wanted = 0;
   }
   ~SignalGuard() {
-    sigaction(SIGINT, &before_[0], nullptr);
-    sigaction(SIGTERM, &before_[1], nullptr);
+    std::signal(SIGPIPE, before_pipe_);
+    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
   }
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
 
  private:
-  struct sigaction before_[2]{};
+  static constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, signals.size()> before_{};
+  sighandler_t before_pipe_ = SIG_DFL;
 };
 
 bool has_checkpoint(const fs::path& folder) {

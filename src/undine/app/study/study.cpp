@@ -11,6 +11,7 @@
 #include "undine/app/study/prepare.hpp"
 #include "undine/app/study/report.hpp"
 #include "undine/app/study/runner.hpp"
+#include "undine/app/tell.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/io/output_folder.hpp"
@@ -60,12 +61,12 @@ class Progress {
                       {"error", member.error},
                       {"ended", ended_},
                       {"of", total_}};
-      fmt::print("{}\n", to_line(line));
+      tell(stdout, "{}\n", to_line(line));
     } else if (ended) {
-      fmt::print("[{}/{}] {}: {} after {:.1f} s{}\n", ended_, total_, member.name, word(member.status),
-                 member.facts.wall_time, member.error.empty() ? "" : ": " + shortened(member.error, 300));
+      tell(stdout, "[{}/{}] {}: {} after {:.1f} s{}\n", ended_, total_, member.name, word(member.status),
+           member.facts.wall_time, member.error.empty() ? "" : ": " + shortened(member.error, 300));
     } else {
-      fmt::print("        {}: started\n", member.name);
+      tell(stdout, "        {}: started\n", member.name);
     }
     std::fflush(stdout);
   }
@@ -94,7 +95,7 @@ int run_study(const StudyOptions& options) {
     if (member.status != Status::running) write_report(study.file, members, study.out);
   });
   write_report(study.file, members, study.out);
-  if (!options.json) fmt::print("table in {}\n", (study.out / "study.md").string());
+  if (!options.json) tell(stdout, "table in {}\n", (study.out / "study.md").string());
   return complete ? exit_ok : exit_interrupted;
 }
 

@@ -13,6 +13,7 @@
 #include "undine/app/run_options.hpp"
 #include "undine/app/study/prepare.hpp"
 #include "undine/app/study/report.hpp"
+#include "undine/app/tell.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/io/atomic_file.hpp"
@@ -185,8 +186,8 @@ bool run_all(std::vector<Verification>& all, int jobs) {
   };
   const bool complete = run_members(members, runner_options(jobs), [&](const Member& member) {
     if (member.status == Status::running) return;
-    fmt::print(stderr, "[{}/{}] {}: {} after {:.1f} s{}\n", ++ended, to_run, name_of(member), word(member.status),
-               member.facts.wall_time, member.error.empty() ? "" : ": " + shortened(member.error, 200));
+    tell(stderr, "[{}/{}] {}: {} after {:.1f} s{}\n", ++ended, to_run, name_of(member), word(member.status),
+         member.facts.wall_time, member.error.empty() ? "" : ": " + shortened(member.error, 200));
   });
   scatter(members, all);
   return complete;
