@@ -10,8 +10,8 @@
 #include <omp.h>
 
 #include "specialised_loop.hpp"
-#include "undine/app/bench_measure.hpp"
-#include "undine/app/bench_states.hpp"
+#include "undine/app/bench/measure.hpp"
+#include "undine/app/bench/states.hpp"
 
 namespace specialised {
 namespace {

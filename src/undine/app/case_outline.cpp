@@ -7,7 +7,7 @@
 #include "undine/app/case_setup.hpp"
 #include "undine/app/gauges.hpp"
 #include "undine/app/gauges/context.hpp"
-#include "undine/app/run_output.hpp"
+#include "undine/app/run/output.hpp"
 #include "undine/app/watchdog/limits.hpp"
 
 namespace undine {

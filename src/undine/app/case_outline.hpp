@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "undine/app/run_options.hpp"
+#include "undine/app/run/options.hpp"
 #include "undine/io/time_series.hpp"
 
 namespace undine {

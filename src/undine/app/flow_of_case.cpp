@@ -1,6 +1,6 @@
 #include "undine/app/flow_of_case.hpp"
 
-#include "undine/app/checkpoints.hpp"
+#include "undine/app/run/checkpoints.hpp"
 #include "undine/integrators/catalogue.hpp"
 
 namespace undine {

@@ -4,15 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "undine/app/approximate.hpp"
-#include "undine/app/bench.hpp"
-#include "undine/app/bench_search.hpp"
+#include "undine/app/approximate/approximate.hpp"
+#include "undine/app/bench/bench.hpp"
+#include "undine/app/bench/search.hpp"
 #include "undine/app/exact.hpp"
 #include "undine/app/lists.hpp"
 #include "undine/app/picture/picture_command.hpp"
 #include "undine/app/report/report.hpp"
-#include "undine/app/run_options.hpp"
-#include "undine/app/spinning.hpp"
+#include "undine/app/run/options.hpp"
+#include "undine/app/run/spinning.hpp"
 #include "undine/app/study/study.hpp"
 #include "undine/app/study/verify.hpp"
 #include "undine/app/tell.hpp"

@@ -1,5 +1,3 @@
-#include "undine/app/run_control.hpp"
-
 #include <fstream>
 #include <future>
 #include <string>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "undine/app/run/control.hpp"
 #include "undine/io/atomic_file.hpp"
 #include "unit/io/io_test.hpp"
 

@@ -1,11 +1,11 @@
-#include "undine/app/run_folder.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "undine/app/run/folder.hpp"
 
 namespace undine {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "undine/app/case_setup.hpp"
 #include "undine/app/gauges/gauge.hpp"
-#include "undine/app/run_output.hpp"
+#include "undine/app/run/output.hpp"
 
 namespace undine {
 

@@ -5,7 +5,7 @@
 
 #include "undine/app/picture/camera.hpp"
 #include "undine/app/picture/canvas.hpp"
-#include "undine/app/run_folder.hpp"
+#include "undine/app/run/folder.hpp"
 
 namespace undine {
 

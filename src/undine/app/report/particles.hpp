@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "undine/app/report/blocks.hpp"
-#include "undine/app/run_folder.hpp"
+#include "undine/app/run/folder.hpp"
 
 namespace undine {
 

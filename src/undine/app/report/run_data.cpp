@@ -7,7 +7,7 @@
 
 #include "undine/app/gauges.hpp"
 #include "undine/app/report/particles.hpp"
-#include "undine/app/run_output.hpp"
+#include "undine/app/run/output.hpp"
 #include "undine/core/error.hpp"
 #include "undine/io/time_series.hpp"
 

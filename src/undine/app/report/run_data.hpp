@@ -1,6 +1,6 @@
 #pragma once
 #include "undine/app/report/blocks.hpp"
-#include "undine/app/run_folder.hpp"
+#include "undine/app/run/folder.hpp"
 
 namespace undine {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "undine/app/approximate_study.hpp"
+#include "undine/app/approximate/study.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/io/checksum.hpp"

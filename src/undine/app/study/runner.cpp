@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "undine/app/run_options.hpp"
+#include "undine/app/run/options.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"
 #include "undine/io/atomic_file.hpp"

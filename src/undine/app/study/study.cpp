@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "undine/app/run_options.hpp"
+#include "undine/app/run/options.hpp"
 #include "undine/app/study/prepare.hpp"
 #include "undine/app/study/report.hpp"
 #include "undine/app/study/runner.hpp"

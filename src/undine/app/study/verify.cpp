@@ -10,7 +10,7 @@
 #include <fnmatch.h>
 #include <nlohmann/json.hpp>
 
-#include "undine/app/run_options.hpp"
+#include "undine/app/run/options.hpp"
 #include "undine/app/study/prepare.hpp"
 #include "undine/app/study/report.hpp"
 #include "undine/app/tell.hpp"

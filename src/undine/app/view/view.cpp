@@ -10,7 +10,7 @@
 #include <sys/random.h>
 
 #include "undine/app/report/report.hpp"
-#include "undine/app/run_control.hpp"
+#include "undine/app/run/control.hpp"
 #include "undine/app/view/guarded_server.hpp"
 #include "undine/app/view/view_data.hpp"
 #include "undine/core/error.hpp"

@@ -7,7 +7,7 @@
 #include "undine/app/report/blocks.hpp"
 #include "undine/app/report/particles.hpp"
 #include "undine/app/report/run_data.hpp"
-#include "undine/app/run_control.hpp"
+#include "undine/app/run/control.hpp"
 #include "undine/core/error.hpp"
 #include "undine/io/snapshot.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "undine/app/run_folder.hpp"
+#include "undine/app/run/folder.hpp"
 
 namespace undine {
 

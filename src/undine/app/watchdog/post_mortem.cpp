@@ -7,7 +7,7 @@
 
 #include "undine/app/case_setup.hpp"
 #include "undine/app/flow_of_case.hpp"
-#include "undine/app/run_output.hpp"
+#include "undine/app/run/output.hpp"
 #include "undine/app/watchdog/collect.hpp"
 
 namespace undine {

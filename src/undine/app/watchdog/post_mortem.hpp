@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "undine/app/checkpoints.hpp"
+#include "undine/app/run/checkpoints.hpp"
 #include "undine/app/watchdog/diagnosis.hpp"
 #include "undine/app/watchdog/watch.hpp"
 #include "undine/io/case/document.hpp"

@@ -1,4 +1,4 @@
-#include "undine/app/spinning.hpp"
+#include "undine/app/run/spinning.hpp"
 
 #include <climits>
 #include <cstdlib>

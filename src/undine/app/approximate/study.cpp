@@ -1,4 +1,4 @@
-#include "undine/app/approximate_study.hpp"
+#include "undine/app/approximate/study.hpp"
 
 #include <array>
 #include <chrono>
@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "undine/app/run_options.hpp"
+#include "undine/app/run/options.hpp"
 #include "undine/approximation/catalogue.hpp"
 #include "undine/approximation/consistency.hpp"
 #include "undine/core/error.hpp"

@@ -1,4 +1,4 @@
-#include "undine/app/bench_hardware.hpp"
+#include "undine/app/bench/hardware.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "undine/app/bench.hpp"
+#include "undine/app/bench/bench.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <omp.h>
 
-#include "undine/app/bench_flops.hpp"
-#include "undine/app/bench_hardware.hpp"
-#include "undine/app/bench_measure.hpp"
+#include "undine/app/bench/flops.hpp"
+#include "undine/app/bench/hardware.hpp"
+#include "undine/app/bench/measure.hpp"
 #include "undine/io/run_record.hpp"
 
 namespace undine {

@@ -5,7 +5,7 @@
 
 #include <omp.h>
 
-#include "undine/app/bench_peak.hpp"
+#include "undine/app/bench/peak.hpp"
 #include "undine/core/isa.hpp"
 #include "undine/core/pack.hpp"
 

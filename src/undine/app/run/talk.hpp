@@ -4,9 +4,9 @@
 
 #include "undine/app/case_setup.hpp"
 #include "undine/app/gauges/comparison.hpp"
-#include "undine/app/run_options.hpp"
-#include "undine/app/run_output.hpp"
-#include "undine/app/run_pace.hpp"
+#include "undine/app/run/options.hpp"
+#include "undine/app/run/output.hpp"
+#include "undine/app/run/pace.hpp"
 #include "undine/io/run_record.hpp"
 
 namespace undine {

@@ -10,14 +10,14 @@
 #include <nlohmann/json.hpp>
 #include <omp.h>
 
-#include "undine/app/checkpoints.hpp"
 #include "undine/app/flow_of_case.hpp"
 #include "undine/app/gauges.hpp"
 #include "undine/app/gauges/context.hpp"
 #include "undine/app/report/report.hpp"
-#include "undine/app/run_control.hpp"
-#include "undine/app/run_output.hpp"
-#include "undine/app/run_talk.hpp"
+#include "undine/app/run/checkpoints.hpp"
+#include "undine/app/run/control.hpp"
+#include "undine/app/run/output.hpp"
+#include "undine/app/run/talk.hpp"
 #include "undine/app/tell.hpp"
 #include "undine/app/watchdog/post_mortem.hpp"
 #include "undine/app/watchdog/subject.hpp"

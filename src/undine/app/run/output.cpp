@@ -1,4 +1,4 @@
-#include "undine/app/run_output.hpp"
+#include "undine/app/run/output.hpp"
 
 #include <algorithm>
 #include <array>

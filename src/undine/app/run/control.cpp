@@ -1,4 +1,4 @@
-#include "undine/app/run_control.hpp"
+#include "undine/app/run/control.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "undine/app/bench_search_sets.hpp"
+#include "undine/app/bench/search_sets.hpp"
 
 #include <algorithm>
 #include <cmath>

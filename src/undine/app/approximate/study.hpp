@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "undine/app/approximate.hpp"
+#include "undine/app/approximate/approximate.hpp"
 #include "undine/app/case_outline.hpp"
 
 namespace undine {

@@ -2,7 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "undine/app/bench_states.hpp"
+#include "undine/app/bench/states.hpp"
 
 namespace undine {
 

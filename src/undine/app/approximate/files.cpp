@@ -1,4 +1,4 @@
-#include "undine/app/approximate_files.hpp"
+#include "undine/app/approximate/files.hpp"
 
 #include <algorithm>
 #include <fstream>

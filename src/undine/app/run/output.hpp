@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "undine/app/run_options.hpp"
+#include "undine/app/run/options.hpp"
 #include "undine/io/case/document.hpp"
 #include "undine/io/snapshot.hpp"
 #include "undine/io/time_series.hpp"

@@ -1,4 +1,4 @@
-#include "undine/app/run_talk.hpp"
+#include "undine/app/run/talk.hpp"
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-#include "undine/app/approximate.hpp"
+#include "undine/app/approximate/approximate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include "undine/app/approximate_files.hpp"
-#include "undine/app/approximate_study.hpp"
+#include "undine/app/approximate/files.hpp"
+#include "undine/app/approximate/study.hpp"
 #include "undine/app/parameters.hpp"
-#include "undine/app/run_options.hpp"
+#include "undine/app/run/options.hpp"
 #include "undine/approximation/catalogue.hpp"
 #include "undine/core/error.hpp"
 #include "undine/core/nearest.hpp"

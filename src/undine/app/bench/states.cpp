@@ -1,4 +1,4 @@
-#include "undine/app/bench_states.hpp"
+#include "undine/app/bench/states.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "undine/app/run_folder.hpp"
+#include "undine/app/run/folder.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,11 +1,11 @@
-#include "undine/app/bench_flops.hpp"
+#include "undine/app/bench/flops.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
 
-#include "undine/app/bench_peak.hpp"
+#include "undine/app/bench/peak.hpp"
 #include "undine/engine/pair.hpp"
 #include "undine/terms/catalogue.hpp"
 

@@ -1,4 +1,4 @@
-#include "undine/app/bench_measure.hpp"
+#include "undine/app/bench/measure.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,7 @@
 #include <omp.h>
 #include <unistd.h>
 
-#include "undine/app/run_output.hpp"
+#include "undine/app/run/output.hpp"
 #include "undine/core/error.hpp"
 #include "undine/integrators/euler.hpp"
 #include "undine/integrators/leapfrog.hpp"

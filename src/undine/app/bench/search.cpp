@@ -1,4 +1,4 @@
-#include "undine/app/bench_search.hpp"
+#include "undine/app/bench/search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <omp.h>
 
 #include "undine/analysis/growth.hpp"
-#include "undine/app/bench_hardware.hpp"
-#include "undine/app/bench_search_sets.hpp"
+#include "undine/app/bench/hardware.hpp"
+#include "undine/app/bench/search_sets.hpp"
 #include "undine/core/stopwatch.hpp"
 #include "undine/io/run_record.hpp"
 #include "undine/search/search.hpp"

@@ -1,4 +1,4 @@
-#include "undine/app/checkpoints.hpp"
+#include "undine/app/run/checkpoints.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "undine/app/run_output.hpp"
+#include "undine/app/run/output.hpp"
 #include "undine/core/error.hpp"
 #include "undine/io/checksum.hpp"
 
