@@ -250,6 +250,9 @@ def refused(program, folder):
     done = undine(program, "run", case, "--out", os.path.join(folder, "begun"), "--quiet", "--resume")
     require("before its first checkpoint" in done.stderr and checksum(program, checkpoints(os.path.join(folder, "begun"))[-1]) == wanted,
             "a run that was ended before its first checkpoint begins again")
+    fresh()
+    done = undine(program, "run", case, "--out", out, "--quiet", "--resume")
+    require(not done.stderr, f"on the same machine there is nothing to say: {done.stderr.strip() or 'nothing'}")
 
 
 def flip_a_byte(path):

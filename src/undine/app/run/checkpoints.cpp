@@ -10,6 +10,7 @@
 #include "undine/app/run/output.hpp"
 #include "undine/core/error.hpp"
 #include "undine/io/checksum.hpp"
+#include "undine/io/run_record.hpp"
 
 namespace undine {
 namespace {
@@ -66,6 +67,12 @@ std::string case_hash(const Document& document) {
   return hash.text();
 }
 
+std::string rounding_of(const Backend& backend) {
+  const auto set = backend.kind == BackendKind::threads ? backend.instructions : InstructionSet::basic;
+  return fmt::format("undine {} with {} instructions", program_version(),
+                     instruction_set_names[static_cast<std::size_t>(set)]);
+}
+
 std::vector<fs::path> Checkpoints::files() const {
   std::vector<fs::path> found;
   std::error_code ignored;
@@ -78,6 +85,7 @@ std::vector<fs::path> Checkpoints::files() const {
 void Checkpoints::write(CheckpointData data) const {
   data.state.texts["case"] = hash_;
   data.state.texts["keys"] = keys_;
+  data.state.texts["rounding"] = rounding_;
   write_checkpoint(folder_ / fmt::format("step_{:012}.checkpoint", data.frame.step), data);
   const auto all = files();
   std::error_code ignored;  // one too many does no harm
@@ -103,7 +111,11 @@ FoundCheckpoint Checkpoints::read_newest() const {
       found.checkpoint = read_checkpoint(*file);
       found.file = *file;
       reason = misfit(found.checkpoint);
-      if (reason.empty()) return found;
+      if (reason.empty()) {
+        const auto& texts = found.checkpoint.state.texts;
+        if (const auto by = texts.find("rounding"); by != texts.end()) found.rounding = by->second;
+        return found;
+      }
     } catch (const InputError& error) {
       reason = error.parts().why;
     }

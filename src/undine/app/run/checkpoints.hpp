@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "undine/backend/backend.hpp"
 #include "undine/engine/store.hpp"
 #include "undine/io/case/document.hpp"
 #include "undine/io/checkpoint.hpp"
@@ -17,21 +18,27 @@ std::string fitting_keys(const Document& document);
 /// Their hash.
 std::string case_hash(const Document& document);
 
+/// What decides how sums round beside the case: the program's version and the instructions that it runs with.
+std::string rounding_of(const Backend& backend);
+
 /// A checkpoint that was found in a folder, and those newer than it that could not be used.
 struct FoundCheckpoint {
   OwnedCheckpoint checkpoint;
   std::filesystem::path file;
   std::vector<std::string> refused;  ///< one sentence each, with the reason
+  std::string rounding;              ///< of who wrote it
 };
 
 /// The last two checkpoints of a folder, by step.
 class Checkpoints {
  public:
-  /// `keys` as fitting_keys gives them, `hash` theirs: written with each, and asked of each that is read.
-  Checkpoints(std::filesystem::path folder, std::string keys, std::string hash)
-      : folder_(std::move(folder)), keys_(std::move(keys)), hash_(std::move(hash)) {}
+  /// `keys` as fitting_keys gives them, `hash` theirs: written with each, and asked of each that is read. `rounding` as
+  /// rounding_of gives it: written with each.
+  Checkpoints(std::filesystem::path folder, std::string keys, std::string hash, std::string rounding)
+      : folder_(std::move(folder)), keys_(std::move(keys)), hash_(std::move(hash)), rounding_(std::move(rounding)) {}
 
   const std::string& hash() const { return hash_; }
+  const std::string& rounding() const { return rounding_; }
   /// Writes one and removes all but the last two.
   void write(CheckpointData data) const;
   /// The newest that is whole and of this case. Throws InputError, saying of each why not, where there is none.
@@ -46,7 +53,7 @@ class Checkpoints {
   std::string misfit(const OwnedCheckpoint& checkpoint) const;
 
   std::filesystem::path folder_;
-  std::string keys_, hash_;
+  std::string keys_, hash_, rounding_;
 };
 
 /// Says when a checkpoint is due: after so much simulated time, or after so much time on the clock.

@@ -60,7 +60,8 @@ class Run {
         clock_(output_.checkpoints, output_.checkpoint_wall_time) {
     for (const int f : output_.fields) setup_.options().kept.set(static_cast<std::size_t>(f));
     document.finish();
-    checkpoints_.emplace(output_.folder, fitting_keys(document), case_hash(document));
+    checkpoints_.emplace(output_.folder, fitting_keys(document), case_hash(document),
+                         rounding_of(setup_.options().backend));
   }
 
   void describe() const { talk_.describe(); }
@@ -107,6 +108,7 @@ class Run {
     pace_.listens = control_.enabled();
     if (unbegun) talk_.warn("the earlier run ended before its first checkpoint; this one starts from the beginning");
     if (found) say_refused(*found);
+    if (found && found->rounding != checkpoints_->rounding()) say_it_rounds_otherwise(found->rounding);
     talk_.describe();
     watch_.emplace(limits_, watch_subject(setup_), setup_.options().materials);
     flow_ = flow_of_case(setup_, found ? &found->checkpoint : nullptr);
@@ -140,6 +142,13 @@ class Run {
     moment_ = Moment::chosen_step;
     const Energies e = flow_->energies();
     energies_->set_start(e.total(), e.potential);
+  }
+
+  void say_it_rounds_otherwise(const std::string& before) const {
+    talk_.warn(
+        fmt::format("the checkpoint is of {}, and this is {}: the run goes on, but need not come to the same bits "
+                    "as one that never stopped; `scheme.instructions` names a set that all machines have",
+                    before.empty() ? "an older undine" : before, checkpoints_->rounding()));
   }
 
   void say_refused(const FoundCheckpoint& found) const {
